@@ -1,0 +1,86 @@
+#ifndef tribodraw_friction_table_friction_table_h
+#define tribodraw_friction_table_friction_table_h
+
+#include <tribodraw/base/table.h>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tribodraw
+{
+  /// Everything the macroscopic simulation knows of a sheet-tool pair: the only border between the micro and the
+  /// macro world. One table for one tool zone.
+  ///
+  /// A sheet point carries the cut height s of its asperities (design: state, not memoryless tables). The table holds
+  ///  - state curves over s: contact fraction, mean film h_avg, flow-factor tensors;
+  ///  - flattening: s under normal load alone over (solid pressure, plastic strain), and the plastic strain needed
+  ///    per unit descent of s over (solid pressure, plastic strain, s); the paper's monotone look-up s(p, eps) is the
+  ///    integral of these and is stored too;
+  ///  - boundary friction: shear strength of the boundary layer over its pressure P0, shear strength k of the sheet over
+  ///    plastic strain, ploughing coefficient over (solid pressure, plastic strain).
+  /// Units: mm, MPa.
+  class FrictionTable
+  {
+  public:
+    struct StateCurves
+    {
+      std::vector<double> cut_height;       ///< ascending [mm]
+      std::vector<double> contact_fraction; ///< decreasing
+      std::vector<double> h_avg;            ///< increasing [mm]
+      std::vector<double> phi_p_xx, phi_p_xy, phi_p_yx, phi_p_yy;
+      std::vector<double> phi_s_xx, phi_s_xy, phi_s_yx, phi_s_yy;
+    };
+
+    /// Film quantities of one sheet point.
+    struct Film
+    {
+      double          contact_fraction;
+      double          h_avg; ///< [mm]
+      Eigen::Matrix2d phi_p; ///< in the axes of the blank
+      Eigen::Matrix2d phi_s; ///< in the axes of the blank; positive: the sheet is the rough surface
+    };
+
+    // ---- content (public: written by the builder, checked by check()) ----
+    StateCurves    curves;
+    Table<2>       cut_height_normal;     ///< s(p, eps) under load alone [mm]
+    Table<3>       strain_per_descent;    ///< d eps / d(-s) over (p, eps, s) [1/mm]
+    Table<2>       cut_height_monotone;   ///< s(p, eps): the paper's look-up [mm]
+    Table<1>       boundary_layer_shear;  ///< tau_BL over P0 [MPa]; interpolated in logarithms
+    Table<1>       shear_strength;        ///< k over eps [MPa]
+    Table<2>       ploughing_coefficient; ///< ploughing shear per solid pressure over (p, eps)
+    double         sq              = 0;   ///< reference Sq of phi_s: combined, undeformed [mm]
+    double         initial_cut_height = 0; ///< top of the undeformed map [mm]
+    nlohmann::json provenance;            ///< parameters, surface hashes, filters, versions
+
+    // ---- use ----
+    /// Cut height after solid pressure @p p_solid and straining from @p eps_old to @p eps_new; never above @p s_old.
+    double advance(double s_old, double p_solid, double eps_old, double eps_new) const;
+    Film   film(double cut_height) const;
+    /// Boundary friction shear stress of the solids per nominal area [MPa]:
+    /// alpha min(tau_BL(p0), k(eps)) + ploughing coefficient * p_solid, with p0 the pressure in the boundary layer.
+    double solid_shear(double cut_height, double p_solid, double p0, double eps) const;
+    /// Number of look-ups outside the range of the axes so far (clamped to the ends).
+    unsigned long n_outside() const { return outside; }
+
+    /// Throws InputError naming the first inconsistency (axis, size, sign, finiteness).
+    void check(const std::string &name) const;
+
+    /// JSON (self-describing) and CSV with the columns of the design.
+    void                 write(const std::filesystem::path &json_file, const std::filesystem::path &csv_file) const;
+    static FrictionTable read(const std::filesystem::path &json_file);
+
+    FrictionTable() = default;
+    FrictionTable(const FrictionTable &other);
+    FrictionTable &operator=(const FrictionTable &other);
+
+  private:
+    mutable std::atomic<unsigned long> outside{0};
+  };
+} // namespace tribodraw
+
+#endif
