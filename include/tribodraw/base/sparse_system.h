@@ -20,9 +20,9 @@ namespace tribodraw
 
     int    size() const { return static_cast<int>(start.size()) - 1; }
     void   set_zero();
-    /// Position of entry (row, column) in values(); the entry must be in the pattern.
-    std::size_t position(int row, int column) const;
-    void        add(int row, int column, double v) { value[position(row, column)] += v; }
+    /// Position of entry (row, col) in values(); the entry must be in the pattern.
+    std::size_t position(int row, int col) const;
+    void        add(int row, int col, double v) { value[position(row, col)] += v; }
     /// Make the unknowns marked in @p fixed trivial: their rows and columns become zero, the diagonal @p diagonal
     /// (on the rank that should contribute it; pass 0 elsewhere).
     void eliminate(const std::vector<bool> &fixed, double diagonal);
