@@ -20,7 +20,10 @@ namespace tribodraw
     std::vector<bool> on_x_plane, on_y_plane;
     /// Nodes on the free outer edge.
     std::vector<bool> on_outer_edge;
-    double            symmetry_factor = 1; ///< full part / modelled part (4 for a quarter)
+    /// Unit normals at the nodes of a curved surface, where they are known exactly; empty: mean of the adjacent
+    /// triangles.
+    std::vector<Eigen::Vector3d> normals;
+    double                       symmetry_factor = 1; ///< full part / modelled part (4 for a quarter)
 
     double smallest_edge() const;
     double largest_edge() const;
@@ -31,8 +34,9 @@ namespace tribodraw
   BlankMesh make_quarter_rectangle(double lx, double ly, unsigned n_x, unsigned n_y);
 
   /// Grid of a surface given by a mapping of the unit square, alternating diagonals; for benchmarks.
-  BlankMesh make_mapped_grid(unsigned n_u, unsigned n_v, const std::vector<Eigen::Vector3d> &points /* (n_u+1)*(n_v+1), u fastest */,
-                             bool alternating = true);
+  BlankMesh make_mapped_grid(unsigned n_u, unsigned n_v,
+                             const std::vector<Eigen::Vector3d> &points /* (n_u+1)*(n_v+1), u fastest */,
+                             bool                                alternating = true);
 } // namespace tribodraw
 
 #endif

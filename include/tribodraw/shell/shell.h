@@ -11,9 +11,10 @@
 
 namespace tribodraw
 {
-  /// The sheet: 3-node Kirchhoff triangles (constant-strain membrane, discrete-Kirchhoff bending with a director at each node),
-  /// total Lagrangian, large rotations and strains, plasticity through the thickness. Mesh, unknowns, sparsity and
-  /// partition are deal.II's (parallel::shared::Triangulation<2,3>, FESystem(FE_SimplexP(1), 5)); the element is plain C++.
+  /// The sheet: 3-node Kirchhoff triangles (constant-strain membrane, discrete-Kirchhoff bending with a director at
+  /// each node), total Lagrangian, large rotations and strains, plasticity through the thickness. Mesh, unknowns,
+  /// sparsity and partition are deal.II's (parallel::shared::Triangulation<2,3>, FESystem(FE_SimplexP(1), 5)); the
+  /// element is plain C++.
   ///
   /// Unknowns of a node: displacement x, y, z and two increments of its director (components 3, 4), in mm and rad.
   /// Positions and directors are replicated on every rank; each rank integrates its own elements.
@@ -29,10 +30,15 @@ namespace tribodraw
       bool   loading_tangent = false; ///< plastic tangent for points on the yield surface (predictor)
     };
 
-    Shell(const BlankMesh                     &mesh,
-          double                               thickness,
-          std::shared_ptr<const SheetMaterial> material,
-          unsigned                             n_thickness_points);
+    enum class ThicknessPoints
+    {
+      gauss,  ///< most exact for a given number
+      lobatto ///< with points on the surfaces, where yielding in bending begins
+    };
+
+    /// @param n_thickness_points 3 to 11
+    Shell(const BlankMesh &mesh, double thickness, std::shared_ptr<const SheetMaterial> material,
+          unsigned n_thickness_points, ThicknessPoints kind = ThicknessPoints::gauss);
     ~Shell();
 
     const BlankMesh &mesh() const;
@@ -49,7 +55,8 @@ namespace tribodraw
     void align_director_frame(unsigned node, const Eigen::Vector3d &axis);
 
     // ---- trial configuration ----
-    /// Add an increment (n_dofs or more entries) to the trial configuration: positions by addition, directors by rotation.
+    /// Add an increment (n_dofs or more entries) to the trial configuration: positions by addition, directors by
+    /// rotation.
     void move(const Eigen::VectorXd &increment);
     /// Forget the trial configuration: back to the committed one.
     void revert();
@@ -66,12 +73,12 @@ namespace tribodraw
     /// Internal forces of the trial configuration, from the committed history; sums over ranks.
     /// Adds the tangent of this rank's elements to @p tangent if given (not summed over ranks).
     /// Returns false if a material point did not converge or an element is inverted.
+    /// In that case neither the forces nor the tangent are of use.
     /// @param internal_force resized to n_dofs (plus the matrix's extra unknowns if a tangent is given) and overwritten
-    bool assemble(double                 time_increment,
-                  const AssemblyOptions &options,
-                  Eigen::VectorXd       &internal_force,
-                  SparseMatrix          *tangent);
-    /// Accept the trial configuration and the history of the last assemble(); updates thickness and energies.
+    bool assemble(double time_increment, const AssemblyOptions &options, Eigen::VectorXd &internal_force,
+                  SparseMatrix *tangent);
+    /// Accept the trial configuration and the history of the last assemble(), which must have succeeded with this
+    /// configuration; updates thickness and energies. Collective.
     void commit();
 
     // ---- results of the committed state (whole, same on each rank) ----
@@ -86,11 +93,12 @@ namespace tribodraw
     {
       std::vector<double> thickness, eps_p, max_eps_p; ///< eps_p: thickness mean; max over the thickness points
       std::vector<double> major_strain, minor_strain;  ///< logarithmic, mid-surface
-      std::vector<double> membrane_stress_xx, membrane_stress_yy, membrane_stress_xy; ///< thickness mean, log. stress [MPa]
+      std::vector<double> membrane_stress_xx, membrane_stress_yy,
+          membrane_stress_xy; ///< thickness mean, log. stress [MPa]
     };
-    ElementResults element_results() const;
-    double         elastic_energy() const; ///< [N mm]
-    double         plastic_work() const;   ///< accumulated [N mm]
+    ElementResults element_results() const; ///< collective
+    double         elastic_energy() const;  ///< [N mm]
+    double         plastic_work() const;    ///< accumulated [N mm]
 
     void save(Archive &archive) const; ///< collective
     void load(const Archive &archive); ///< committed and trial state from a checkpoint; any number of ranks

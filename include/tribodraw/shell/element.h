@@ -1,0 +1,100 @@
+#ifndef tribodraw_shell_element_h
+#define tribodraw_shell_element_h
+
+#include <tribodraw/material/sheet_material.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace tribodraw::shell_element
+{
+  // The Kirchhoff triangle with nodal directors: constant-strain membrane and discrete-Kirchhoff bending
+  // (J.-L. Batoz, K.-J. Bathe, L.-W. Ho, Int. J. Numer. Meth. Engng 15 (1980) 1771), total Lagrangian.
+  //
+  // Membrane: C_ab = phi_a . phi_b with the tangent vectors phi_a = sum_i g_{i,a} x_i of the flat triangle.
+  // Bending: the director d_i of a node has the covariant components b_{a,i} = phi_a . d_i, which vanish if it is
+  // normal to the triangle. Along a side the deflection is cubic, hence at mid-side with unit direction s
+  //   b_k = (1/2 I - 3/4 s s^T)(b_i + b_j);
+  // quadratic interpolation gives the curvature kappa_ab = 1/2 (d_b b_a + d_a b_b).
+  // At the height z (in the undeformed sheet) C(z) = C + 2 z lambda (kappa - kappa_0); lambda is the thickness stretch.
+
+  constexpr unsigned n_nodes     = 3;
+  constexpr unsigned n_dofs      = 15; ///< node by node: x, y, z, two director increments
+  constexpr unsigned n_in_plane  = 3;  ///< points at barycentric (2/3, 1/6, 1/6) and permutations, exact to degree 2
+  constexpr unsigned n_covariant = 6;  ///< b_{a,i}, at index 2 i + a
+
+  using ForceVector   = Eigen::Matrix<double, n_dofs, 1>;
+  using TangentMatrix = Eigen::Matrix<double, n_dofs, n_dofs, Eigen::RowMajor>;
+  using BendingMatrix = Eigen::Matrix<double, 3, n_covariant>; ///< (kappa_11, kappa_22, kappa_12) from b
+
+  /// Quadrature over the thickness on [-1, 1]; the weights sum to one.
+  struct ThicknessRule
+  {
+    std::vector<double> point, weight;
+  };
+  ThicknessRule make_thickness_rule(unsigned n, bool lobatto = false);
+
+  /// Position, director and its two tangents e_1, e_2 of the three nodes.
+  struct NodeState
+  {
+    std::array<Eigen::Vector3d, n_nodes>                position, director;
+    std::array<std::array<Eigen::Vector3d, 2>, n_nodes> frame;
+  };
+
+  /// What stays constant during the computation.
+  struct Reference
+  {
+    Eigen::Matrix<double, n_nodes, 2>     gradient; ///< g_{i,a}, along the axes of the material [1/mm]
+    double                                area = 0; ///< [mm^2]
+    std::array<BendingMatrix, n_in_plane> bending;
+    std::array<Vector3, n_in_plane>       initial_curvature; ///< [1/mm]
+  };
+  /// @p nodes the undeformed state; the first axis of the material is the x direction projected on the triangle (y,
+  /// where x is normal to it).
+  Reference make_reference(const NodeState &nodes);
+
+  struct Section
+  {
+    double               thickness         = 0; ///< undeformed [mm]
+    double               thickness_stretch = 1; ///< lambda
+    const ThicknessRule *rule              = nullptr;
+    const SheetMaterial *material          = nullptr;
+  };
+
+  struct Options
+  {
+    double time_increment  = 1;     ///< [s]
+    bool   tangent         = true;  ///< also compute the stiffness
+    bool   tension_only    = false; ///< geometric membrane stiffness from the tensile part of the membrane forces
+    double elastic_blend   = 0;     ///< share of the elastic in the plastic tangent
+    bool   loading_tangent = false;
+  };
+
+  /// Results of an element beside forces and stiffness.
+  struct Summary
+  {
+    bool    valid            = false;           ///< not inverted and all points converged
+    Vector3 mean_stress      = Vector3::Zero(); ///< logarithmic stress, mean over the volume [MPa]
+    double  thickness_strain = 0;               ///< logarithmic, mean
+    double  elastic_energy   = 0;               ///< [N mm]
+    double  plastic_work     = 0;               ///< of the increment [N mm]
+  };
+
+  /// Integrate the element.
+  /// @param old_states,new_states plastic states of the n_in_plane * rule.size() points, thickness points fastest
+  /// @param force internal forces [N, N mm/rad], overwritten
+  /// @param tangent derivative of the forces by the degrees of freedom, overwritten if options.tangent; exact if
+  ///        neither tension_only, elastic_blend nor loading_tangent are in use
+  Summary integrate(const Reference &reference, const NodeState &nodes, const Section &section, const Options &options,
+                    const PlasticState *old_states, PlasticState *new_states, ForceVector &force,
+                    TangentMatrix &tangent);
+
+  /// Metric (C_11, C_22, C_12) of the mid-surface.
+  Vector3 mid_surface_metric(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &position);
+  /// Curvature (kappa_11, kappa_22, kappa_12) at an in-plane point.
+  Vector3 curvature(const Reference &reference, const NodeState &nodes, unsigned in_plane_point);
+} // namespace tribodraw::shell_element
+
+#endif
