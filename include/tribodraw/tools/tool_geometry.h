@@ -25,7 +25,11 @@ namespace tribodraw
   {
   public:
     virtual ~ToolGeometry() = default;
-    static const char *kind() { return "tool shape"; }
+    static const char *
+    kind()
+    {
+      return "tool shape";
+    }
     /// Must be continuous with |d(x) - d(y)| <= |x - y|; exact near the surface.
     virtual ToolDistance distance(const Eigen::Vector3d &x) const = 0;
     /// Smallest convex radius of the surface [mm]: the mesh must resolve it (infinity for a plane).

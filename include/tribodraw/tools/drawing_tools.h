@@ -1,0 +1,62 @@
+#ifndef tribodraw_tools_drawing_tools_h
+#define tribodraw_tools_drawing_tools_h
+
+#include <tribodraw/tools/outline.h>
+#include <tribodraw/tools/tool_geometry.h>
+
+#include <memory>
+
+namespace tribodraw
+{
+  class Parameters;
+
+  /// A die: the half space z < 0 without the opening, the edge of which is rounded. The vertical wall follows the
+  /// outline; the flange begins one edge radius outside of it.
+  class DrawingDie : public ToolGeometry
+  {
+  public:
+    /// Throws InputError if the edge radius is larger than a re-entrant radius of the opening: the rounded edge
+    /// would have a crease there, which tears the sheet.
+    DrawingDie(std::shared_ptr<const Outline> opening, double edge_radius);
+    ToolDistance distance(const Eigen::Vector3d &x) const override;
+    double       smallest_radius() const override;
+    std::string  describe() const override;
+    const Outline &
+    outline() const
+    {
+      return *opening;
+    }
+
+  private:
+    std::shared_ptr<const Outline> opening;
+    double                         edge;
+  };
+
+  /// A punch: a prism above z = 0 with the outline as its wall and a rounded lower edge. The flat face ends one
+  /// edge radius inside of the outline.
+  class DrawingPunch : public ToolGeometry
+  {
+  public:
+    /// Throws InputError if the edge radius is larger than a convex radius of the outline.
+    DrawingPunch(std::shared_ptr<const Outline> outline, double edge_radius);
+    ToolDistance distance(const Eigen::Vector3d &x) const override;
+    double       smallest_radius() const override;
+    std::string  describe() const override;
+    const Outline &
+    outline() const
+    {
+      return *wall;
+    }
+
+  private:
+    std::shared_ptr<const Outline> wall;
+    double                         edge;
+  };
+
+  /// Smallest distance in plan between the walls of a die and a punch [mm], both centred; negative if they overlap.
+  /// Sampled on a grid of the first quadrant up to @p extent with @p spacing, never below the true value where that
+  /// is positive and at most 2 @p spacing above it.
+  double plan_clearance(const ToolGeometry &die, const ToolGeometry &punch, double extent, double spacing);
+} // namespace tribodraw
+
+#endif
