@@ -1,0 +1,51 @@
+#ifndef tribodraw_forming_friction_coupling_h
+#define tribodraw_forming_friction_coupling_h
+
+#include <tribodraw/contact/contact.h>
+#include <tribodraw/shell/shell.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tribodraw
+{
+  /// Where the friction coefficient of each node comes from. Called by the forming loop after each converged increment,
+  /// before it is committed; the result acts in the next increment (staggered, paper Fig. 8).
+  class FrictionCoupling
+  {
+  public:
+    /// The increment that has just converged.
+    struct Increment
+    {
+      double              dt     = 0;     ///< [s]
+      double              travel = 0;     ///< punch travel in the increment [mm]
+      std::vector<double> tool_velocity;  ///< vertical velocity of each tool [mm/s]
+      bool                closing = false; ///< blank holder closes, punch at rest
+    };
+    /// Figures for history.csv and the screen; index 0: punch side, 1: die side.
+    struct Summary
+    {
+      std::array<double, n_faces> max_lubricant_pressure{{0, 0}}; ///< [MPa]
+      std::array<double, n_faces> mean_mu{{0, 0}};                ///< load-weighted
+      double                      starved_area_fraction  = 0;     ///< of the contact area
+      double                      lubricant_volume_error = 0;     ///< relative
+    };
+
+    virtual ~FrictionCoupling() = default;
+    /// Coefficients at the start.
+    virtual void start(const Shell &shell, Contact &contact) = 0;
+    /// New coefficients from the committed contact state.
+    virtual void update(const Shell &shell, Contact &contact, const Increment &increment) = 0;
+    virtual Summary summary() const = 0;
+    /// Nodal fields for output by their names in the design, NaN where there is no contact.
+    virtual std::map<std::string, std::vector<double>> fields() const { return {}; }
+    /// Text for the log after each increment (empty: nothing).
+    virtual std::string report() const { return ""; }
+    virtual void        save(Archive &) const {}
+    virtual void        load(const Archive &) {}
+  };
+} // namespace tribodraw
+
+#endif
