@@ -1,6 +1,7 @@
 #ifndef tribodraw_friction_table_friction_table_h
 #define tribodraw_friction_table_friction_table_h
 
+#include <tribodraw/base/csv.h>
 #include <tribodraw/base/table.h>
 
 #include <Eigen/Core>
@@ -19,10 +20,11 @@ namespace tribodraw
   /// A sheet point carries the cut height s of its asperities (design: state, not memoryless tables). The table holds
   ///  - state curves over s: contact fraction, mean film h_avg, flow-factor tensors;
   ///  - flattening: s under normal load alone over (solid pressure, plastic strain), and the plastic strain needed
-  ///    per unit descent of s over (solid pressure, plastic strain, s); the paper's monotone look-up s(p, eps) is the
-  ///    integral of these and is stored too;
-  ///  - boundary friction: shear strength of the boundary layer over its pressure P0, shear strength k of the sheet over
-  ///    plastic strain, ploughing coefficient over (solid pressure, plastic strain).
+  ///    per unit descent of s over (solid pressure, plastic strain, s), times the pressure: for the Wilson-Sheu law
+  ///    this product is linear in the pressure and in the shear strength k(eps), and is interpolated in these without
+  ///    error. The paper's monotone look-up s(p, eps) is the integral of these and is stored too;
+  ///  - boundary friction: shear strength of the boundary layer over its pressure P0, shear strength k of the sheet
+  ///    over plastic strain, ploughing coefficient over (solid pressure, plastic strain).
   /// Units: mm, MPa.
   class FrictionTable
   {
@@ -46,26 +48,51 @@ namespace tribodraw
     };
 
     // ---- content (public: written by the builder, checked by check()) ----
-    StateCurves    curves;
-    Table<2>       cut_height_normal;     ///< s(p, eps) under load alone [mm]
-    Table<3>       strain_per_descent;    ///< d eps / d(-s) over (p, eps, s) [1/mm]
-    Table<2>       cut_height_monotone;   ///< s(p, eps): the paper's look-up [mm]
-    Table<1>       boundary_layer_shear;  ///< tau_BL over P0 [MPa]; interpolated in logarithms
-    Table<1>       shear_strength;        ///< k over eps [MPa]
-    Table<2>       ploughing_coefficient; ///< ploughing shear per solid pressure over (p, eps)
-    double         sq              = 0;   ///< reference Sq of phi_s: combined, undeformed [mm]
-    double         initial_cut_height = 0; ///< top of the undeformed map [mm]
-    nlohmann::json provenance;            ///< parameters, surface hashes, filters, versions
+    StateCurves curves;
+    Table<2>    cut_height_normal; ///< s(p, eps) under load alone [mm]; s goes to the map's top as p goes to 0
+    /// p * d eps / d(-s) over (p, eps, s) [MPa/mm]; negative where the load alone still flattens, never above
+    /// rigid_strain_load.
+    Table<3>                strain_load_per_descent;
+    Table<2>                cut_height_monotone;       ///< s(p, eps): the paper's look-up [mm]
+    Table<1>                boundary_layer_shear;      ///< tau_BL over P0 [MPa]; interpolated in logarithms
+    Table<1>                shear_strength;            ///< k over eps [MPa]
+    Table<2>                ploughing_coefficient;     ///< ploughing shear per solid pressure over (p, eps)
+    static constexpr double rigid_strain_load  = 1e15; ///< stands for infinity: strain does not flatten
+    double                  sq                 = 0;    ///< reference Sq of phi_s: combined, undeformed [mm]
+    double                  initial_cut_height = 0;    ///< top of the undeformed map [mm]
+    nlohmann::json          provenance;                ///< parameters, surface hashes, filters, versions
 
     // ---- use ----
     /// Cut height after solid pressure @p p_solid and straining from @p eps_old to @p eps_new; never above @p s_old.
+    /// The load acts first (on the sheet as hard as it is at eps_old), then the strain at constant load.
     double advance(double s_old, double p_solid, double eps_old, double eps_new) const;
     Film   film(double cut_height) const;
     /// Boundary friction shear stress of the solids per nominal area [MPa]:
     /// alpha min(tau_BL(p0), k(eps)) + ploughing coefficient * p_solid, with p0 the pressure in the boundary layer.
     double solid_shear(double cut_height, double p_solid, double p0, double eps) const;
-    /// Number of look-ups outside the range of the axes so far (clamped to the ends).
-    unsigned long n_outside() const { return outside; }
+    /// Largest solid pressure [MPa], plastic strain and contact fraction for which the table was made.
+    double
+    max_pressure() const
+    {
+      return strain_load_per_descent.axes()[0].points.back();
+    }
+    double
+    max_strain() const
+    {
+      return strain_load_per_descent.axes()[1].points.back();
+    }
+    double
+    max_contact_fraction() const
+    {
+      return curves.contact_fraction.front();
+    }
+    /// Number of look-ups above the range of the axes so far (clamped to the ends). Pressures below the first point are
+    /// inside: the limit p -> 0 is known.
+    unsigned long
+    n_outside() const
+    {
+      return outside;
+    }
 
     /// Throws InputError naming the first inconsistency (axis, size, sign, finiteness).
     void check(const std::string &name) const;
@@ -73,13 +100,21 @@ namespace tribodraw
     /// JSON (self-describing) and CSV with the columns of the design.
     void                 write(const std::filesystem::path &json_file, const std::filesystem::path &csv_file) const;
     static FrictionTable read(const std::filesystem::path &json_file);
+    nlohmann::json       to_json() const;
+    /// @param name of the file, for messages
+    static FrictionTable from_json(const nlohmann::json &json, const std::string &name);
+    /// The monotone look-up as a table of the design's columns.
+    CsvTable monotone_look_up() const;
 
     FrictionTable() = default;
     FrictionTable(const FrictionTable &other);
     FrictionTable &operator=(const FrictionTable &other);
 
   private:
-    mutable std::atomic<unsigned long> outside{0};
+    double normal_cut_height(double p_solid, double eps) const;
+    double descend(double s, double p_solid, double eps, double strain) const;
+
+    mutable std::atomic<unsigned long> outside{ 0 };
   };
 } // namespace tribodraw
 

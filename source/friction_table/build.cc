@@ -1,0 +1,322 @@
+#include <tribodraw/base/errors.h>
+#include <tribodraw/base/parallel.h>
+#include <tribodraw/base/timing.h>
+#include <tribodraw/base/units.h>
+#include <tribodraw/boundary_friction/ploughing.h>
+#include <tribodraw/friction_table/builder.h>
+#include <tribodraw/friction_table/monotone_curve.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tribodraw
+{
+  namespace
+  {
+    /// Contact fractions above this leave no film to speak of, and the flattening law no validity.
+    constexpr double largest_contact_fraction = 0.98;
+
+    void
+    check_pair(const PairDescription &pair)
+    {
+      const HeightMap &a = pair.sheet, &b = pair.tool;
+      if (a.size() == 0)
+        throw InputError(describe_error("A friction table needs a rough sheet", "`Sheet surface`", "a smooth surface",
+                                        "a measured or generated surface"));
+      const auto differs = [](const double x, const double y) { return std::abs(x - y) > 1e-9 * x; };
+      if (b.size() > 0 && (a.nx != b.nx || a.ny != b.ny || differs(a.dx, b.dx) || differs(a.dy, b.dy)))
+        {
+          const auto grid = [](const HeightMap &m) {
+            return std::to_string(m.nx) + " x " + std::to_string(m.ny) + " pixels of " + units::format(m.dx, "um")
+                   + " x " + units::format(m.dy, "um");
+          };
+          throw InputError(
+              describe_error("Sheet and tool maps have different grids", "`Sheet surface` and `Tool surface`",
+                             grid(a) + " and " + grid(b), "the same pixels",
+                             "Generate the tool surface on the grid of the sheet, or resample one of them before."));
+        }
+    }
+
+    /// Cut heights, ascending from @p bottom to @p top, spread evenly in the mean of relative height and relative
+    /// contact fraction: a plateau that is touched within little descent gets its points, and so does the way to it.
+    std::vector<double>
+    spread_cut_heights(const HeightDistribution &heights, const double bottom, const double top, const unsigned int n)
+    {
+      const double alpha_max = heights.contact_fraction(bottom);
+      const auto   measure   = [&](const double s) {
+        return 0.5 * ((top - s) / (top - bottom) + heights.contact_fraction(s) / alpha_max);
+      };
+      std::vector<double> result{ bottom };
+      for (unsigned int i = n - 2; i > 0; --i)
+        {
+          const double target = measure(top) + (measure(bottom) - measure(top)) * i / (n - 1);
+          double       low = bottom, high = top;
+          for (unsigned int step = 0; step < 60; ++step)
+            {
+              const double mid                     = 0.5 * (low + high);
+              (measure(mid) > target ? low : high) = mid;
+            }
+          // Maps with equal heights have jumps in the contact fraction: no two points on one jump.
+          if (high - result.back() > 1e-6 * (top - bottom) && top - high > 1e-6 * (top - bottom))
+            result.push_back(high);
+        }
+      result.push_back(top);
+      return result;
+    }
+
+    class Build
+    {
+    public:
+      Build(const PairDescription &p, const std::function<void(double)> &report_progress)
+          : pair(p), heights(p.sheet), film_heights(gap_map(p)), progress(report_progress)
+      {
+      }
+
+      FrictionTable
+      run()
+      {
+        make_shear_strength();
+        make_cut_heights();
+        make_curves();
+        make_flattening();
+        make_boundary_layer();
+        report(0.05);
+        make_ploughing();
+        report(0.15);
+        make_flow_factors();
+        report(1.);
+        return table;
+      }
+
+    private:
+      const PairDescription            &pair;
+      const HeightDistribution          heights;      // of the sheet
+      const HeightDistribution          film_heights; // of sheet + tool: the gap
+      const std::function<void(double)> progress;
+      FrictionTable                     table;
+
+      static HeightMap
+      gap_map(const PairDescription &p)
+      {
+        HeightMap sum = p.sheet;
+        for (std::size_t i = 0; i < p.tool.z.size(); ++i)
+          sum.z[i] += p.tool.z[i];
+        return sum;
+      }
+
+      void
+      report(const double done) const
+      {
+        if (progress)
+          progress(done);
+      }
+
+      const Flattening &
+      flattening() const
+      {
+        return *pair.flattening;
+      }
+      double
+      strength(const double eps) const
+      {
+        return flattening().shear_strength(*pair.hardening, eps);
+      }
+      Axis
+      pressure_axis(const AxisScale scale) const
+      {
+        return { pair.axes.pressures, scale };
+      }
+      Axis
+      strain_axis() const
+      {
+        return { pair.axes.strains, AxisScale::linear };
+      }
+
+      void
+      make_shear_strength()
+      {
+        // Hardening is steepest at the start: points spread quadratically.
+        const unsigned int  n    = 200;
+        const double        last = pair.axes.strains.back();
+        std::vector<double> eps, k;
+        for (unsigned int i = 0; i <= n; ++i)
+          eps.push_back(last * i * i / (static_cast<double>(n) * n));
+        eps.insert(eps.end(), pair.axes.strains.begin(), pair.axes.strains.end()); // exact there
+        std::sort(eps.begin(), eps.end());
+        eps.erase(std::unique(eps.begin(), eps.end(), [](double a, double b) { return b - a < 1e-12; }), eps.end());
+        for (const double e : eps)
+          k.push_back(strength(e));
+        table.shear_strength = Table<1>({ Axis{ eps, AxisScale::linear } }, k);
+      }
+
+      void
+      make_cut_heights()
+      {
+        const auto         &pressures = pair.axes.pressures, &strains = pair.axes.strains;
+        std::vector<double> monotone(pressures.size() * strains.size()), normal(monotone.size());
+        parallel::for_range(pressures.size(), 1, [&](const std::size_t begin, const std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i)
+            {
+              const auto s = flattening().monotone_cut_heights(heights, *pair.hardening, pressures[i], strains);
+              for (std::size_t j = 0; j < strains.size(); ++j)
+                {
+                  monotone[i * strains.size() + j] = s[j];
+                  normal[i * strains.size() + j]
+                      = flattening().cut_height_under_load(heights, pressures[i], strength(strains[j]));
+                }
+            }
+        });
+        // Neighbouring pressures may end on one pixel, in either order by round-off.
+        for (std::size_t i = 1; i < pressures.size(); ++i)
+          for (std::size_t j = 0; j < strains.size(); ++j)
+            monotone[i * strains.size() + j]
+                = std::min(monotone[i * strains.size() + j], monotone[(i - 1) * strains.size() + j]);
+        table.cut_height_monotone = Table<2>({ pressure_axis(AxisScale::logarithmic), strain_axis() }, monotone);
+        table.cut_height_normal   = Table<2>({ pressure_axis(AxisScale::logarithmic), strain_axis() }, normal);
+      }
+
+      void
+      make_curves()
+      {
+        table.sq                 = film_reference();
+        table.initial_cut_height = heights.highest();
+        const double lowest      = table.cut_height_monotone.values().back(); // largest pressure and strain
+        if (const double alpha = heights.contact_fraction(lowest); alpha > largest_contact_fraction)
+          throw InputError(describe_error(
+              "The sheet surface is pressed flat at the largest pressure and strain",
+              "`Friction table/Pressures` and `/Strains`",
+              "contact fraction " + units::number(alpha) + " at " + units::format(pair.axes.pressures.back(), "MPa")
+                  + " and strain " + units::number(pair.axes.strains.back()),
+              "at most " + units::number(largest_contact_fraction), "Lower the largest pressure or strain."));
+        // A little below the lowest state, so that interpolated states stay inside.
+        const double margin = 0.05 * (heights.highest() - lowest);
+        const double bottom
+            = std::max(lowest - margin, heights.cut_height_for_contact_fraction(0.5 * (1. + largest_contact_fraction)));
+        auto &c = table.curves;
+        c.cut_height
+            = spread_cut_heights(heights, std::min(bottom, lowest), heights.highest(), pair.axes.n_curve_points);
+        for (const double s : c.cut_height)
+          {
+            c.contact_fraction.push_back(heights.contact_fraction(s));
+            c.h_avg.push_back(film_heights.mean_gap(s));
+          }
+      }
+
+      double
+      film_reference() const
+      {
+        double sum = heights.sq() * heights.sq();
+        if (pair.tool.size() > 0)
+          sum += std::pow(HeightDistribution(pair.tool).sq(), 2);
+        return std::sqrt(sum);
+      }
+
+      void
+      make_flattening()
+      {
+        std::vector<double> values;
+        for (const double p : pair.axes.pressures)
+          for (const double eps : pair.axes.strains)
+            for (const double alpha : table.curves.contact_fraction)
+              values.push_back(std::min(FrictionTable::rigid_strain_load,
+                                        p * flattening().strain_per_descent(alpha, p, strength(eps))));
+        table.strain_load_per_descent = Table<3>(
+            { pressure_axis(AxisScale::linear), strain_axis(), Axis{ table.curves.cut_height, AxisScale::linear } },
+            values);
+      }
+
+      void
+      make_boundary_layer()
+      {
+        // Five points a decade: a power law needs two, others are smooth in logarithms.
+        std::vector<double> p0, tau;
+        for (int i = -10; i <= 25; ++i)
+          {
+            p0.push_back(std::pow(10., i / 5.));
+            tau.push_back(pair.boundary_friction.shear_law->shear_stress(p0.back()));
+          }
+        table.boundary_layer_shear = Table<1>({ Axis{ p0, AxisScale::logarithmic } }, tau);
+      }
+
+      void
+      make_ploughing()
+      {
+        const auto         &pressures = pair.axes.pressures, &strains = pair.axes.strains;
+        std::vector<double> coefficient(pressures.size() * strains.size(), 0.);
+        std::vector<double> saturated(coefficient.size(), 0.);
+        if (pair.tool.size() > 0)
+          {
+            const timing::Scope              scope("friction_table/ploughing");
+            const std::vector<std::uint32_t> order = pixels_by_height(pair.tool);
+            parallel::for_range(coefficient.size(), 1, [&](const std::size_t begin, const std::size_t end) {
+              for (std::size_t point = begin; point < end; ++point)
+                {
+                  const double         p = pressures[point / strains.size()], eps = strains[point % strains.size()];
+                  const double         s = table.cut_height_monotone.values()[point], k = strength(eps);
+                  const PlateauContact contact(pair.sheet, pair.tool, order, s + sheet_mean() - 1e-9 * heights.sq());
+                  const double         tau     = pair.boundary_friction.layer_shear(p / heights.contact_fraction(s), k);
+                  const auto           balance = balance_ploughing(contact, p, flattening().hardness(k), tau,
+                                                                   pair.boundary_friction.ploughing_directions);
+                  coefficient[point]           = std::max(0., balance.coefficient);
+                  saturated[point]             = balance.saturated;
+                }
+            });
+          }
+        table.ploughing_coefficient = Table<2>({ pressure_axis(AxisScale::logarithmic), strain_axis() }, coefficient);
+        table.provenance["ploughing_points_saturated"] = std::count(saturated.begin(), saturated.end(), 1.);
+      }
+
+      /// The distribution is about the mean of the map; maps have zero mean but for round-off. (The pixel at s itself
+      /// belongs to the plateau, hence the tiny amount subtracted by the caller.)
+      double
+      sheet_mean() const
+      {
+        return *std::max_element(pair.sheet.z.begin(), pair.sheet.z.end()) - heights.highest();
+      }
+
+      void
+      make_flow_factors()
+      {
+        auto               &c = table.curves;
+        std::vector<double> cuts
+            = spread_cut_heights(heights, c.cut_height.front(), c.cut_height.back(), pair.axes.n_cut_heights);
+        const auto factors = pair.flow_factors->compute(pair.sheet, pair.tool, table.sq, cuts,
+                                                        [&](const double done) { report(0.15 + 0.85 * done); });
+        if (factors.size() != cuts.size())
+          throw std::logic_error("The flow factor model returned a wrong number of results.");
+
+        const auto interpolate = [&](std::vector<double> &curve, const auto &value) {
+          std::vector<double> points;
+          for (const FlowFactors &f : factors)
+            points.push_back(value(f));
+          const MonotoneCurve smooth(cuts, points);
+          for (const double s : c.cut_height)
+            curve.push_back(smooth(s));
+        };
+        std::vector<double> *phi_p[] = { &c.phi_p_xx, &c.phi_p_xy, &c.phi_p_yx, &c.phi_p_yy };
+        std::vector<double> *phi_s[] = { &c.phi_s_xx, &c.phi_s_xy, &c.phi_s_yx, &c.phi_s_yy };
+        for (std::size_t i = 0; i < 4; ++i)
+          {
+            const bool diagonal = i == 0 || i == 3; // round-off of a closed gap must not be a negative conductance
+            interpolate(*phi_p[i],
+                        [&](const FlowFactors &f) { return diagonal ? std::max(0., f.phi_p[i]) : f.phi_p[i]; });
+            interpolate(*phi_s[i], [&](const FlowFactors &f) { return f.phi_s[i]; });
+          }
+        table.provenance["flow_factor_cut_heights_mm"] = cuts;
+      }
+    };
+  } // namespace
+
+  FrictionTable
+  build_friction_table(const PairDescription &pair, const std::function<void(double)> &progress)
+  {
+    const timing::Scope scope("friction_table/build");
+    check_pair(pair);
+    FrictionTable table              = Build(pair, progress).run();
+    table.provenance["sheet_map"]    = { { "hash", pair.sheet.hash() }, { "description", pair.sheet.description } };
+    table.provenance["tool_map"]     = { { "hash", pair.tool.hash() }, { "description", pair.tool.description } };
+    table.provenance["flow_factors"] = pair.flow_factors->fingerprint();
+    table.check("friction table");
+    return table;
+  }
+} // namespace tribodraw
