@@ -47,7 +47,7 @@ TEST(Outline, GradientAndHessianAreTheDerivatives)
   for (const Outline *outline : outlines)
     {
       int checked = 0;
-      for (int i = 0; i < 4000; ++i)
+      for (int i = 0; i < 20000; ++i)
         {
           const Vector2d     x(coordinate(random), coordinate(random));
           const PlanDistance d = outline->distance(x);
@@ -88,7 +88,7 @@ TEST(Outline, IsSymmetric)
       {
         const Vector2d     x(coordinate(random), coordinate(random));
         const PlanDistance d = outline->distance(x);
-        for (const Vector2d sign : { Vector2d(-1, 1), Vector2d(1, -1), Vector2d(-1, -1) })
+        for (const Vector2d &sign : { Vector2d(-1, 1), Vector2d(1, -1), Vector2d(-1, -1) })
           {
             const PlanDistance m = outline->distance(sign.cwiseProduct(x));
             const Matrix2d     s = sign.asDiagonal();

@@ -1,0 +1,160 @@
+// What every registered tool shape must hold, so that contact can rely on it. The shapes are made in documentation
+// mode, in which the reader of a shape stands in its own example for the missing file.
+#include <tribodraw/base/parameters.h>
+#include <tribodraw/tools/tool_geometry.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace tribodraw;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace
+{
+  class ToolShape : public ::testing::TestWithParam<std::string>
+  {
+  protected:
+    void
+    SetUp() override
+    {
+      Parameters parameters = Parameters::for_documentation();
+      tool                  = Registry<ToolGeometry>::entries().at(GetParam()).create(parameters);
+      ASSERT_TRUE(tool);
+    }
+
+    Vector3d
+    random_point()
+    {
+      std::uniform_real_distribution<double> plan(-150, 150), height(-60, 60);
+      return { plan(random), plan(random), height(random) };
+    }
+
+    /// Distance within which the surface is smooth on both sides; 10 mm for planes.
+    double
+    smooth_band() const
+    {
+      return 0.5 * std::min(20., tool->smallest_radius());
+    }
+
+    /// A random point moved along its normal into the band. The way may end short of it beyond a medial axis:
+    /// such points are left out by the caller.
+    Vector3d
+    random_point_near_surface()
+    {
+      std::uniform_real_distribution<double> within(-smooth_band(), smooth_band());
+      const Vector3d                         x = random_point();
+      const ToolDistance                     d = tool->distance(x);
+      return x - (d.distance - within(random)) * d.normal;
+    }
+
+    std::unique_ptr<ToolGeometry> tool;
+    std::mt19937                  random{ 7 };
+  };
+
+  std::vector<std::string>
+  names()
+  {
+    std::vector<std::string> result;
+    for (const auto &[name, entry] : Registry<ToolGeometry>::entries())
+      result.push_back(name);
+    return result;
+  }
+} // namespace
+
+TEST_P(ToolShape, DistanceHasNoJumps)
+{
+  std::normal_distribution<double> step(0, 0.5);
+  for (int i = 0; i < 200000; ++i)
+    {
+      const Vector3d x = random_point(), y = x + Vector3d(step(random), step(random), step(random));
+      ASSERT_LE(std::abs(tool->distance(x).distance - tool->distance(y).distance), (x - y).norm() + 1e-11)
+          << x.transpose() << " and " << y.transpose();
+    }
+}
+
+TEST_P(ToolShape, NormalIsAUnitVectorEverywhere)
+{
+  for (int i = 0; i < 20000; ++i)
+    {
+      const ToolDistance d = tool->distance(random_point());
+      ASSERT_NEAR(d.normal.norm(), 1, 1e-12);
+      ASSERT_TRUE(d.curvature.allFinite());
+    }
+}
+
+TEST_P(ToolShape, DistanceTimesNormalLeadsToTheSurface)
+{
+  int checked = 0;
+  for (int i = 0; i < 20000; ++i)
+    {
+      const Vector3d     x = random_point_near_surface();
+      const ToolDistance d = tool->distance(x);
+      if (std::abs(d.distance) > smooth_band())
+        continue;
+      ++checked;
+      ASSERT_NEAR(tool->distance(x - d.distance * d.normal).distance, 0, 1e-10) << x.transpose();
+    }
+  EXPECT_GT(checked, 15000);
+}
+
+TEST_P(ToolShape, NormalAndCurvatureAreTheDerivatives)
+{
+  const double h       = 1e-5;
+  int          checked = 0, smooth = 0;
+  for (int i = 0; i < 20000; ++i)
+    {
+      const Vector3d     x = random_point_near_surface();
+      const ToolDistance d = tool->distance(x);
+      if (std::abs(d.distance) > smooth_band())
+        continue;
+      Vector3d gradient;
+      Matrix3d curvature, change;
+      for (int k = 0; k < 3; ++k)
+        {
+          const Vector3d     e = h * Vector3d::Unit(k);
+          const ToolDistance a = tool->distance(x - e), b = tool->distance(x + e);
+          gradient[k]      = (b.distance - a.distance) / (2 * h);
+          curvature.col(k) = (b.normal - a.normal) / (2 * h);
+          change.col(k)    = (b.curvature - a.curvature).col(k);
+        }
+      // Central differences: error h^2/6 times the third derivative (a few 1/mm^2) plus rounding 1e-13/h.
+      ASSERT_LT((gradient - d.normal).norm(), 1e-7) << x.transpose();
+      ++checked;
+      // The curvature jumps where an arc joins a straight piece.
+      if (change.norm() < 1e-4)
+        {
+          ASSERT_LT((curvature - d.curvature).norm(), 1e-6) << x.transpose();
+          ++smooth;
+        }
+      ASSERT_LT((d.curvature - d.curvature.transpose()).norm(), 1e-13);
+      ASSERT_LT((d.curvature * d.normal).norm(), 1e-12); // |normal| = 1 along every path
+    }
+  EXPECT_GT(checked, 15000);
+  EXPECT_GT(smooth, 0.95 * checked);
+}
+
+TEST_P(ToolShape, TellsWhatItIs)
+{
+  EXPECT_FALSE(tool->describe().empty());
+  EXPECT_GT(tool->smallest_radius(), 0);
+  const ModelInfo &info = Registry<ToolGeometry>::entries().at(GetParam()).info;
+  EXPECT_FALSE(info.description.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(AllRegistered, ToolShape, ::testing::ValuesIn(names()), [](const auto &test) {
+  std::string name = test.param;
+  for (char &c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)))
+      c = '_';
+  return name;
+});
+
+TEST(ToolShapes, TheShippedOnesAreRegistered)
+{
+  for (const char *name :
+       { "plane", "cross die", "cross punch", "square die", "square punch", "cylindrical die", "cylindrical punch" })
+    EXPECT_TRUE(Registry<ToolGeometry>::entries().count(name)) << name;
+}
