@@ -1,0 +1,52 @@
+#ifndef tribodraw_lubrication_bounded_system_h
+#define tribodraw_lubrication_bounded_system_h
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace tribodraw
+{
+  /// K x = f with 0 <= x <= upper and some x prescribed, K symmetric and positive definite on the free unknowns:
+  ///   0 < x_i < upper_i : r_i = 0,   x_i = 0 : r_i <= 0,   x_i = upper_i : r_i >= 0,   r = f - K x.
+  /// Primal-dual active set in the form of block principal pivoting (Judice and Pires, Computers & Operations Research
+  /// 21, 1994): all wrong nodes change their set at once; if that does not reduce their number for some steps (matrices
+  /// that are no M-matrices: obtuse triangles), one at a time (Murty), which always ends.
+  class BoundedSystem
+  {
+  public:
+    using Matrix = Eigen::SparseMatrix<double>;
+
+    struct Result
+    {
+      Eigen::VectorXd   x, residual;
+      std::vector<char> set; ///< per unknown, one of Set
+      unsigned          iterations = 0;
+      bool              converged  = false;
+    };
+    enum Set : char
+    {
+      prescribed,
+      free,
+      at_zero,
+      at_upper
+    };
+
+    /// Ordering and symbolic factorisation of this pattern (both triangles stored), kept for all solutions.
+    void analyse(const Matrix &pattern);
+
+    /// @param set where each unknown starts; prescribed ones stay.
+    /// @param x   values of the prescribed unknowns; the others are not read.
+    Result solve(const Matrix &K, const Eigen::VectorXd &f, const Eigen::VectorXd &upper, std::vector<char> set,
+                 Eigen::VectorXd x);
+
+  private:
+    Eigen::SimplicialLDLT<Matrix> factors;
+    Matrix                        reduced;
+
+    bool solve_linear(const Matrix &K, const Eigen::VectorXd &f, const std::vector<char> &set, Eigen::VectorXd &x);
+  };
+} // namespace tribodraw
+
+#endif

@@ -1,0 +1,164 @@
+#include "film_geometry.h"
+
+#include <tribodraw/base/errors.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/grid/tria.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+
+namespace tribodraw
+{
+  struct FilmGeometry::Mesh
+  {
+    dealii::Triangulation<2, 3> triangulation;
+    dealii::FE_SimplexP<2, 3>   fe{ 1 };
+    dealii::MappingFE<2, 3>     mapping{ fe };
+    dealii::DoFHandler<2, 3>    dof_handler{ triangulation };
+  };
+
+  namespace
+  {
+    void
+    check_connectivity(const std::vector<std::array<unsigned, 3>> &triangles, const std::size_t n_nodes)
+    {
+      std::vector<char> used(n_nodes, 0);
+      for (std::size_t c = 0; c < triangles.size(); ++c)
+        for (const unsigned node : triangles[c])
+          {
+            if (node >= n_nodes)
+              throw InputError(describe_error("A triangle of the film mesh names a node that does not exist",
+                                              "triangle " + std::to_string(c), std::to_string(node),
+                                              "below " + std::to_string(n_nodes)));
+            used[node] = 1;
+          }
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        if (!used[i])
+          throw InputError(
+              describe_error("A node of the film mesh belongs to no triangle", "node " + std::to_string(i)));
+    }
+
+    /// Axes of the blank turned with the material: R of the polar decomposition F = R U of the 3x2 deformation
+    /// gradient.
+    void
+    turn_axes(FilmGeometry::Cell &cell, const std::vector<Eigen::Vector3d> &x)
+    {
+      Eigen::Matrix<double, 3, 2> edges;
+      for (unsigned v = 0; v < 2; ++v)
+        edges.col(v) = x[cell.node[v + 1]] - x[cell.node[0]];
+      const Eigen::Matrix<double, 3, 2> F = edges * cell.reference_inverse;
+      const Eigen::Matrix2d             C = F.transpose() * F;
+      // Closed form of the square root of a symmetric positive 2x2 matrix.
+      const double          J = std::sqrt(C.determinant());
+      const Eigen::Matrix2d U = (C + J * Eigen::Matrix2d::Identity()) / std::sqrt(C.trace() + 2. * J);
+      if (!(J > 0) || !std::isfinite(J))
+        throw ConvergenceError(
+            describe_error("A triangle of the film mesh has collapsed", "nodes " + std::to_string(cell.node[0]) + ", "
+                                                                            + std::to_string(cell.node[1]) + ", "
+                                                                            + std::to_string(cell.node[2])));
+      cell.axes              = F * U.inverse();
+      cell.material_gradient = cell.axes.transpose() * cell.gradient;
+    }
+
+  } // namespace
+
+  FilmGeometry::FilmGeometry(const std::vector<Eigen::Vector3d>         &reference,
+                             const std::vector<std::array<unsigned, 3>> &connectivity)
+      : mesh(std::make_unique<Mesh>()), n(reference.size())
+  {
+    check_connectivity(connectivity, n);
+    std::vector<dealii::CellData<2>> cell_data;
+    for (const auto &t : connectivity)
+      {
+        dealii::CellData<2> cell(3);
+        for (unsigned v = 0; v < 3; ++v)
+          cell.vertices[v] = t[v];
+        cell_data.push_back(cell);
+      }
+    std::vector<dealii::Point<3>> vertices;
+    for (const auto &x : reference)
+      vertices.emplace_back(x[0], x[1], x[2]);
+    mesh->triangulation.create_triangulation(vertices, cell_data, dealii::SubCellData());
+    mesh->dof_handler.distribute_dofs(mesh->fe);
+
+    std::vector<dealii::types::global_dof_index> node_of_dof(mesh->dof_handler.n_dofs());
+    for (const auto &cell : mesh->dof_handler.active_cell_iterators())
+      {
+        Cell            c;
+        Eigen::Matrix2d edges;
+        for (unsigned v = 0; v < 3; ++v)
+          {
+            c.node[v]                                 = cell->vertex_index(v);
+            node_of_dof[cell->vertex_dof_index(v, 0)] = c.node[v];
+          }
+        for (unsigned v = 0; v < 2; ++v)
+          edges.col(v) = (reference[c.node[v + 1]] - reference[c.node[0]]).head<2>();
+        const double longest = edges.colwise().norm().maxCoeff();
+        if (!(std::abs(edges.determinant()) > 1e-12 * longest * longest))
+          throw InputError(describe_error("A triangle of the film mesh has no area in the plane of the blank",
+                                          "triangle " + std::to_string(triangles.size())));
+        c.reference_inverse = edges.inverse();
+        triangles.push_back(c);
+      }
+    mesh->dof_handler.renumber_dofs(node_of_dof);
+
+    const dealii::QGaussSimplex<2> rule(3);
+    for (unsigned q = 0; q < rule.size(); ++q)
+      {
+        QuadraturePoint point;
+        point.weight = 2. * rule.weight(q); // the reference triangle has area 1/2
+        for (unsigned i = 0; i < 3; ++i)
+          point.shape_value[i] = mesh->fe.shape_value(i, rule.point(q));
+        points.push_back(point);
+      }
+  }
+
+  FilmGeometry::~FilmGeometry() = default;
+
+  void
+  FilmGeometry::move_to(const std::vector<Eigen::Vector3d> &positions)
+  {
+    if (positions.size() != n)
+      throw InputError(describe_error("Wrong number of positions for the film mesh", "average Reynolds equation",
+                                      std::to_string(positions.size()), std::to_string(n)));
+    if (positions == last_positions)
+      return;
+    for (const auto &cell : mesh->triangulation.active_cell_iterators())
+      for (unsigned v = 0; v < 3; ++v)
+        {
+          const auto &x   = positions[cell->vertex_index(v)];
+          cell->vertex(v) = dealii::Point<3>(x[0], x[1], x[2]);
+        }
+    // Gradients of linear shape functions are constant: one point is enough.
+    dealii::FEValues<2, 3> fe_values(mesh->mapping, mesh->fe, dealii::QGaussSimplex<2>(1),
+                                     dealii::update_gradients | dealii::update_JxW_values);
+    std::size_t            c = 0;
+    for (const auto &cell : mesh->dof_handler.active_cell_iterators())
+      {
+        fe_values.reinit(cell);
+        Cell &target = triangles[c++];
+        target.area  = fe_values.JxW(0);
+        for (unsigned i = 0; i < 3; ++i)
+          for (unsigned d = 0; d < 3; ++d)
+            target.gradient(d, i) = fe_values.shape_grad(i, 0)[d];
+        turn_axes(target, positions);
+      }
+    last_positions = positions;
+  }
+
+  Eigen::VectorXd
+  FilmGeometry::nodal_area() const
+  {
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(n);
+    for (const Cell &cell : triangles)
+      for (const unsigned i : cell.node)
+        area[i] += cell.area / 3.;
+    return area;
+  }
+} // namespace tribodraw

@@ -1,0 +1,67 @@
+#ifndef tribodraw_source_lubrication_film_geometry_h
+#define tribodraw_source_lubrication_film_geometry_h
+
+#include <Eigen/Core>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace tribodraw
+{
+  /// The deal.II side of the film: triangulation of the blank, linear elements, and what the weak form needs of them
+  /// for given positions of the nodes. Unknowns are numbered as the nodes.
+  class FilmGeometry
+  {
+  public:
+    /// A triangle in the frame of its material: columns of axes are the turned axes of the blank.
+    struct Cell
+    {
+      std::array<unsigned, 3>     node;
+      Eigen::Matrix2d             reference_inverse; // of the edges in the undeformed blank
+      double                      area = 0;
+      Eigen::Matrix<double, 3, 2> axes;
+      Eigen::Matrix<double, 3, 3> gradient;          // of the shape functions in space, one column each
+      Eigen::Matrix<double, 2, 3> material_gradient; // the same along axes
+    };
+
+    /// A point of the quadrature that is exact for degree 5 (the product h^3 PhiP / eta of linear functions).
+    struct QuadraturePoint
+    {
+      double                weight; // parts of the area
+      std::array<double, 3> shape_value;
+    };
+
+    FilmGeometry(const std::vector<Eigen::Vector3d> &reference, const std::vector<std::array<unsigned, 3>> &triangles);
+    ~FilmGeometry();
+
+    void            move_to(const std::vector<Eigen::Vector3d> &positions);
+    Eigen::VectorXd nodal_area() const; ///< a third of the triangles around
+
+    std::size_t
+    n_nodes() const
+    {
+      return n;
+    }
+    const std::vector<Cell> &
+    cells() const
+    {
+      return triangles;
+    }
+    const std::vector<QuadraturePoint> &
+    quadrature() const
+    {
+      return points;
+    }
+
+  private:
+    struct Mesh;
+    std::unique_ptr<Mesh>        mesh;
+    std::size_t                  n;
+    std::vector<Cell>            triangles;
+    std::vector<QuadraturePoint> points;
+    std::vector<Eigen::Vector3d> last_positions;
+  };
+} // namespace tribodraw
+
+#endif
