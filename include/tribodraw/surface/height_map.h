@@ -11,15 +11,27 @@ namespace tribodraw
   /// x is the rolling direction of a sheet. All lengths in mm.
   struct HeightMap
   {
-    std::size_t         nx = 0, ny = 0; ///< pixels along x and y
-    double              dx = 0, dy = 0; ///< pixel sizes [mm]
-    std::vector<double> z;              ///< heights [mm], z[iy * nx + ix]; zero mean after levelling
+    std::size_t         nx = 0, ny = 0;   ///< pixels along x and y
+    double              dx = 0, dy = 0;   ///< pixel sizes [mm]
+    std::vector<double> z;                ///< heights [mm], z[iy * nx + ix]; zero mean after levelling
     bool                periodic = false; ///< the map continues at the opposite side without a jump (generated maps)
     std::string         description;      ///< where it comes from and what was applied to it
 
-    double  operator()(std::size_t ix, std::size_t iy) const { return z[iy * nx + ix]; }
-    double &operator()(std::size_t ix, std::size_t iy) { return z[iy * nx + ix]; }
-    std::size_t size() const { return nx * ny; }
+    double
+    operator()(std::size_t ix, std::size_t iy) const
+    {
+      return z[iy * nx + ix];
+    }
+    double &
+    operator()(std::size_t ix, std::size_t iy)
+    {
+      return z[iy * nx + ix];
+    }
+    std::size_t
+    size() const
+    {
+      return nx * ny;
+    }
     /// Hash over sizes and heights, for provenance and caching.
     std::string hash() const;
   };

@@ -15,14 +15,26 @@ namespace tribodraw
   {
   public:
     virtual ~SurfaceSource() = default;
-    static const char *kind() { return "surface source"; }
-    /// The raw map.
+    static const char *
+    kind()
+    {
+      return "surface source";
+    }
+    /// The raw map. A map with nx = 0 stands for an ideally smooth surface.
     virtual HeightMap make() const = 0;
+    /// True if the heights may contain offset and tilt, so that the user must choose a levelling. Sources whose maps
+    /// are level by construction return false, and levelling is then `none` unless stated.
+    virtual bool
+    needs_levelling() const
+    {
+      return true;
+    }
   };
 
   /// Reads the current subsection (`Model` = `file` | `generated` | `smooth`, levelling) without doing work.
   /// @return a function that makes the levelled, zero-mean map; it may be expensive and throws InputError on
-  /// bad files. Mistakes in the parameters are recorded in @p parameters.
+  /// bad files. For an ideally smooth surface the map is empty (nx = ny = 0). The same seed gives the same map on every
+  /// rank without communication. Mistakes in the parameters are recorded in @p parameters.
   std::function<HeightMap()> read_surface(Parameters &parameters);
 } // namespace tribodraw
 
