@@ -1,0 +1,179 @@
+#ifndef tribodraw_lubrication_lubricated_face_h
+#define tribodraw_lubrication_lubricated_face_h
+
+#include <tribodraw/fluid/viscosity_law.h>
+#include <tribodraw/friction_table/friction_table.h>
+#include <tribodraw/lubrication/average_reynolds.h>
+#include <tribodraw/lubrication/lubrication_settings.h>
+#include <tribodraw/lubrication/surface_patch.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tribodraw
+{
+  class Archive;
+
+  /// One face of the blank (the die side or the punch side): asperities, film and friction of every node.
+  ///
+  /// Once per increment, as the paper's Fig. 8 and with its inconsistencies resolved: nominal pressure -> cut height s
+  /// of the asperities (a state that never rises) -> enough lubricant? -> average Reynolds equation with 0 <= P_lub <=
+  /// P_nom -> shear stress -> friction coefficient for the next increment. Flattening sees P_nom minus the lubricant
+  /// pressure of the previous update; all else the new one.
+  ///
+  /// Lubricant (paper rule): every material point keeps what it was given. The film it can supply is
+  /// h_inp A0/A, A0 and A the area around the node on the undeformed and on the current middle surface (a third of the
+  /// triangles), so the volume sum(h A) is conserved; compression that thickens the sheet thickens the film.
+  ///
+  /// Velocities are taken relative to the tool each node touches: the squeeze term may be neglected in that frame only.
+  class LubricatedFace
+  {
+  public:
+    enum class Regime
+    {
+      no_contact = 0,
+      boundary   = 1, ///< starved: h_inp A0/A < h_avg, all load on the asperities
+      mixed      = 2,
+      full       = 3 ///< P_lub has reached P_nom; the gap would open (see opening_rate)
+    };
+
+    /// What the face needs to know of a node for one increment.
+    struct Contact
+    {
+      double          nominal_pressure = 0;  ///< contact force per current area [MPa]
+      int             table            = -1; ///< friction table of the tool the node touches; -1: far from all tools
+      double          eps_p            = 0;  ///< equivalent plastic strain
+      Eigen::Vector3d sheet_velocity   = Eigen::Vector3d::Zero(); ///< mean over the increment [mm/s]
+      Eigen::Vector3d tool_velocity = Eigen::Vector3d::Zero(); ///< of the touched tool, mean over the increment [mm/s]
+    };
+
+    struct Increment
+    {
+      double dt      = 0;     ///< [s]
+      double travel  = 0;     ///< of the punch [mm]
+      bool   at_rest = false; ///< the blank holder closes, nothing slides: asperities carry all, velocities are ignored
+    };
+
+    /// State and results of a node.
+    struct Node
+    {
+      double cut_height = 0; ///< s [mm]
+      double eps_p      = 0; ///< at the last update
+      int    table      = 0; ///< last touched
+      Regime regime     = Regime::no_contact;
+
+      double          nominal_pressure = 0, solid_pressure = 0, lubricant_pressure = 0; ///< [MPa], nominal smoothed
+      double          friction_coefficient = 0;
+      double          film_thickness       = 0; ///< h_avg [mm]
+      double          supplied_film        = 0; ///< h_inp A0/A [mm]
+      double          contact_fraction     = 0;
+      double          opening_rate         = 0; ///< where P_lub = P_nom [mm/s]
+      Eigen::Matrix2d phi_p = Eigen::Matrix2d::Identity(), phi_s = Eigen::Matrix2d::Zero();
+
+      bool
+      in_contact() const
+      {
+        return regime != Regime::no_contact;
+      }
+    };
+
+    /// Figures of the last update. Fractions are of the contact area.
+    struct Statistics
+    {
+      double contact_area          = 0; ///< [mm^2]
+      double load_share            = 0; ///< integral of P_lub / integral of P_nom
+      double starved_area_fraction = 0, capped_area_fraction = 0;
+      double max_lubricant_pressure = 0;  ///< [MPa]
+      double max_node               = -1; ///< where it is (-1: no contact)
+      double nominal_pressure_there = 0;  ///< [MPa]
+      double mean_friction          = 0;  ///< load-weighted
+      double min_film = 0, max_film = 0;  ///< h_avg over the contact [mm]
+      double opening_volume  = 0; ///< taken up by opening gaps since the start [mm^3]: lift that the bound hides
+      double oscillation     = 0; ///< int |P_lub(n) - 2 P_lub(n-1) + P_lub(n-2)| / int P_lub; 4: flip-flop
+      double supplied_volume = 0, volume = 0; ///< lubricant at the start and now [mm^3]
+      double volume_error          = 0;       ///< relative
+      double n_clamped_friction    = 0;       ///< nodes at the limits of the friction coefficient
+      double active_set_iterations = 0, film_iterations = 0;
+      double film_change = 0; ///< of P_lub in the last film iteration, relative to its maximum
+      double converged   = 1; ///< 0: the active set gave up
+    };
+
+    /// @param reference positions in the undeformed blank (in the plane z = constant, x is the rolling direction)
+    /// @param free_edge nodes on the outer edge of the blank: lubricant pressure zero. Symmetry planes are not marked.
+    /// @param tables one for each tool zone that can touch this face; Contact::table counts in this list
+    /// @param supplied_film h_inp of the undeformed face [mm]
+    LubricatedFace(const std::vector<Eigen::Vector3d> &reference, const std::vector<std::array<unsigned, 3>> &triangles,
+                   std::vector<bool> free_edge, std::vector<std::shared_ptr<const FrictionTable>> tables,
+                   std::shared_ptr<const ViscosityLaw> viscosity_law, double supplied_film,
+                   const LubricationSettings &settings);
+
+    /// To be called once after each converged increment, however small. Motion is accumulated over increments until the
+    /// punch has travelled Settings::smallest_travel; until then the last film and coefficients stay (elastic slip and
+    /// rebound make the velocity of a tiny increment meaningless). Increments at rest always count.
+    /// @return whether film and coefficients are new
+    bool update(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                const Increment &increment);
+
+    const std::vector<Node> &
+    nodes() const
+    {
+      return state;
+    }
+    const Statistics &
+    statistics() const
+    {
+      return figures;
+    }
+    /// One line for the log.
+    std::string report() const;
+
+    /// All state under names that start with @p name.
+    void save(Archive &archive, const std::string &name) const;
+    void load(const Archive &archive, const std::string &name);
+
+  private:
+    std::vector<Eigen::Vector3d>                      undeformed;
+    std::vector<bool>                                 edge;
+    std::vector<std::shared_ptr<const FrictionTable>> tables;
+    std::shared_ptr<const ViscosityLaw>               viscosity_law;
+    LubricationSettings                               settings;
+    AverageReynolds                                   reynolds;
+    SurfacePatch                                      patch;
+
+    std::vector<double> supply;         ///< h_inp per node on the undeformed face [mm]
+    std::vector<double> reference_area; ///< per node
+    std::vector<Node>   state;
+    Statistics          figures;
+
+    // motion since the last update of the film
+    double                       elapsed = 0, travelled = 0;
+    std::vector<Eigen::Vector3d> slid; ///< sheet minus tool [mm]
+    // lubricant pressures of the last two updates
+    std::array<std::vector<double>, 2> earlier_pressure;
+    unsigned                           n_updates = 0;
+
+    const FrictionTable &
+    table(int index) const
+    {
+      return *tables[index];
+    }
+    void check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const;
+    bool accumulate(const std::vector<Contact> &contacts, const Increment &increment);
+    void flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
+                 const std::vector<double> &lubricant) const;
+    AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                                       const std::vector<Eigen::Vector3d> &slip_velocity,
+                                       const std::vector<double>          &lubricant) const;
+    void                    find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                                          const std::vector<Eigen::Vector3d> &slip_velocity);
+    double                  boundary_layer_pressure(const Node &node) const;
+    double                  fresh_friction(const Node &node) const;
+    void                    find_statistics(const std::vector<Node> &nodes, double time);
+  };
+} // namespace tribodraw
+
+#endif

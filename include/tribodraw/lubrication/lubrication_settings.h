@@ -1,0 +1,40 @@
+#ifndef tribodraw_lubrication_lubrication_settings_h
+#define tribodraw_lubrication_lubrication_settings_h
+
+#include <string>
+
+namespace tribodraw
+{
+  class Parameters;
+
+  /// Decisions and numerical controls of the mixed-lubrication model. Sections `Coupling` and `Lubricant`.
+  struct LubricationSettings
+  {
+    /// Which pressure the boundary layer feels (law tau_BL(P0)).
+    enum class BoundaryLayerPressure
+    {
+      solid_plus_lubricant, ///< P0 = P_sol/alpha + P_lub: force balance on an asperity top
+      nominal               ///< P0 = P_nom/alpha: as printed in the paper
+    };
+    /// What decides whether there is enough lubricant.
+    enum class Supply
+    {
+      paper_rule ///< h_inp A0/A < h_avg: boundary friction, no lubricant pressure
+    };
+
+    BoundaryLayerPressure boundary_layer_pressure = BoundaryLayerPressure::solid_plus_lubricant;
+    Supply                supply                  = Supply::paper_rule;
+    unsigned              film_iterations         = 1;    ///< film solutions per increment at most
+    double                film_relaxation         = 1;    ///< part of the new lubricant pressure taken over
+    double                contact_threshold       = 0.05; ///< smallest nominal pressure that counts as contact [MPa]
+    double                fresh_contact_pressure  = 3;   ///< for the coefficient of nodes that are not in contact [MPa]
+    double                smallest_travel         = 0.2; ///< punch travel between film solutions [mm]
+    double                min_friction = 0.005, max_friction = 0.3;
+    double                phi_p_floor = 1e-3; ///< smallest eigenvalue of PhiP
+
+    /// Reads `Coupling` and `Lubricant/Supply`; call at the top level of the file.
+    static LubricationSettings read(Parameters &parameters);
+  };
+} // namespace tribodraw
+
+#endif

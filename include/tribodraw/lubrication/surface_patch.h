@@ -1,0 +1,44 @@
+#ifndef tribodraw_lubrication_surface_patch_h
+#define tribodraw_lubrication_surface_patch_h
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace tribodraw
+{
+  /// Nodal areas and normals of a surface of triangles and the smoothing of nodal values on it.
+  class SurfacePatch
+  {
+  public:
+    SurfacePatch(std::size_t n_nodes, std::vector<std::array<unsigned, 3>> triangles);
+
+    /// Take the geometry of the surface at these positions.
+    void move_to(const std::vector<Eigen::Vector3d> &positions);
+
+    /// A third of the area of the triangles around each node [mm^2].
+    const std::vector<double> &
+    nodal_area() const
+    {
+      return area;
+    }
+    /// Unit normals, area-weighted.
+    const std::vector<Eigen::Vector3d> &
+    normal() const
+    {
+      return normals;
+    }
+    /// One area-weighted pass: mean of each triangle, then mean of the triangles around each node. Keeps the integral.
+    std::vector<double> smooth(const std::vector<double> &values) const;
+    /// Integral of nodal values.
+    double integral(const std::vector<double> &values) const;
+
+  private:
+    std::vector<std::array<unsigned, 3>> cells;
+    std::vector<double>                  area, cell_area;
+    std::vector<Eigen::Vector3d>         normals;
+  };
+} // namespace tribodraw
+
+#endif
