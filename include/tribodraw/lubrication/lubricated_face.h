@@ -84,22 +84,22 @@ namespace tribodraw
     /// Figures of the last update. Fractions are of the contact area.
     struct Statistics
     {
-      double contact_area          = 0; ///< [mm^2]
-      double load_share            = 0; ///< integral of P_lub / integral of P_nom
-      double starved_area_fraction = 0, capped_area_fraction = 0;
-      double max_lubricant_pressure = 0;  ///< [MPa]
-      double max_node               = -1; ///< where it is (-1: no contact)
-      double nominal_pressure_there = 0;  ///< [MPa]
-      double mean_friction          = 0;  ///< load-weighted
-      double min_film = 0, max_film = 0;  ///< h_avg over the contact [mm]
-      double opening_volume  = 0; ///< taken up by opening gaps since the start [mm^3]: lift that the bound hides
-      double oscillation     = 0; ///< int |P_lub(n) - 2 P_lub(n-1) + P_lub(n-2)| / int P_lub; 4: flip-flop
-      double supplied_volume = 0, volume = 0; ///< lubricant at the start and now [mm^3]
-      double volume_error          = 0;       ///< relative
-      double n_clamped_friction    = 0;       ///< nodes at the limits of the friction coefficient
-      double active_set_iterations = 0, film_iterations = 0;
-      double film_change = 0; ///< of P_lub in the last film iteration, relative to its maximum
-      double converged   = 1; ///< 0: the active set gave up
+      double   contact_area          = 0; ///< [mm^2]
+      double   load_share            = 0; ///< integral of P_lub / integral of P_nom
+      double   starved_area_fraction = 0, capped_area_fraction = 0;
+      double   max_lubricant_pressure = 0;  ///< [MPa]
+      int      max_node               = -1; ///< where it is (-1: nowhere)
+      double   nominal_pressure_there = 0;  ///< [MPa]
+      double   mean_friction          = 0;  ///< load-weighted
+      double   min_film = 0, max_film = 0;  ///< h_avg over the contact [mm]
+      double   opening_volume  = 0; ///< taken up by opening gaps since the start [mm^3]: lift that the bound hides
+      double   oscillation     = 0; ///< int |P_lub(n) - 2 P_lub(n-1) + P_lub(n-2)| / int P_lub; 4: flip-flop
+      double   supplied_volume = 0, volume = 0; ///< lubricant at the start and now [mm^3]
+      double   volume_error          = 0;       ///< relative
+      unsigned n_clamped_friction    = 0;       ///< nodes at the limits of the friction coefficient
+      unsigned active_set_iterations = 0, film_iterations = 0;
+      double   film_change = 0;    ///< of P_lub in the last film iteration, relative to its maximum
+      bool     converged   = true; ///< false: the active set gave up
     };
 
     /// @param reference positions in the undeformed blank (in the plane z = constant, x is the rolling direction)
@@ -136,7 +136,6 @@ namespace tribodraw
     void load(const Archive &archive, const std::string &name);
 
   private:
-    std::vector<Eigen::Vector3d>                      undeformed;
     std::vector<bool>                                 edge;
     std::vector<std::shared_ptr<const FrictionTable>> tables;
     std::shared_ptr<const ViscosityLaw>               viscosity_law;
@@ -163,16 +162,20 @@ namespace tribodraw
     }
     void check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const;
     bool accumulate(const std::vector<Contact> &contacts, const Increment &increment);
+    void iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                      const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
+                      std::vector<double> lubricant, bool moving);
     void flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
                  const std::vector<double> &lubricant) const;
-    AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+    AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
                                        const std::vector<Eigen::Vector3d> &slip_velocity,
                                        const std::vector<double>          &lubricant) const;
     void                    find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
                                           const std::vector<Eigen::Vector3d> &slip_velocity);
+    void                    find_statistics(double time);
+    double                  viscosity(const Node &node, const Eigen::Vector3d &slip_velocity, double pressure) const;
     double                  boundary_layer_pressure(const Node &node) const;
     double                  fresh_friction(const Node &node) const;
-    void                    find_statistics(const std::vector<Node> &nodes, double time);
   };
 } // namespace tribodraw
 

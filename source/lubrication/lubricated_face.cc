@@ -1,0 +1,349 @@
+#include <tribodraw/base/errors.h>
+#include <tribodraw/base/timing.h>
+#include <tribodraw/lubrication/lubricated_face.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tribodraw
+{
+  namespace
+  {
+    // A film iteration has converged when the pressure changes by less than this part of its maximum.
+    constexpr double film_tolerance = 1e-3;
+
+    std::vector<double>
+    lubricant_pressures(const std::vector<LubricatedFace::Node> &nodes)
+    {
+      std::vector<double> p;
+      for (const auto &node : nodes)
+        p.push_back(node.lubricant_pressure);
+      return p;
+    }
+
+    void
+    set_film(LubricatedFace::Node &node, const FrictionTable &table)
+    {
+      const auto film       = table.film(node.cut_height);
+      node.film_thickness   = film.h_avg;
+      node.contact_fraction = film.contact_fraction;
+      node.phi_p            = film.phi_p;
+      node.phi_s            = film.phi_s;
+    }
+  } // namespace
+
+  LubricatedFace::LubricatedFace(const std::vector<Eigen::Vector3d>         &reference,
+                                 const std::vector<std::array<unsigned, 3>> &triangles, std::vector<bool> free_edge,
+                                 std::vector<std::shared_ptr<const FrictionTable>> friction_tables,
+                                 std::shared_ptr<const ViscosityLaw> viscosity, const double supplied_film,
+                                 const LubricationSettings &lubrication_settings)
+      : edge(std::move(free_edge)), tables(std::move(friction_tables)), viscosity_law(std::move(viscosity)),
+        settings(lubrication_settings), reynolds(reference, triangles, settings.phi_p_floor),
+        patch(reference.size(), triangles), supply(reference.size(), supplied_film), state(reference.size()),
+        slid(reference.size(), Eigen::Vector3d::Zero())
+  {
+    if (tables.empty() || !viscosity_law || edge.size() != reference.size())
+      throw InputError(describe_error(
+          "A lubricated face needs friction tables, a viscosity law and a mark for each node", "set-up of the film"));
+    patch.move_to(reference);
+    reference_area = patch.nodal_area();
+    double top     = -1e300;
+    for (const auto &t : tables)
+      top = std::max(top, t->initial_cut_height);
+    for (std::size_t i = 0; i < state.size(); ++i)
+      {
+        state[i].cut_height    = top;
+        state[i].supplied_film = supply[i];
+        set_film(state[i], table(0));
+        state[i].friction_coefficient = fresh_friction(state[i]);
+      }
+    figures.supplied_volume = figures.volume = patch.integral(supply);
+  }
+
+  bool
+  LubricatedFace::update(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                         const Increment &increment)
+  {
+    const timing::Scope timer("lubrication/face");
+    check(positions, contacts);
+    if (!accumulate(contacts, increment))
+      return false;
+    const bool moving = !increment.at_rest && elapsed > 0;
+
+    patch.move_to(positions);
+    std::vector<double> nominal;
+    for (const auto &c : contacts)
+      nominal.push_back(std::max(0., c.nominal_pressure));
+    nominal = patch.smooth(nominal);
+
+    std::vector<Node>            nodes = state;
+    std::vector<Eigen::Vector3d> slip(nodes.size(), Eigen::Vector3d::Zero());
+    std::vector<double>          lubricant(nodes.size(), 0.);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        Node &node         = nodes[i];
+        node.supplied_film = supply[i] * reference_area[i] / patch.nodal_area()[i];
+        node.eps_p         = contacts[i].eps_p;
+        if (contacts[i].table >= 0)
+          node.table = contacts[i].table;
+        const bool touches    = contacts[i].table >= 0 && nominal[i] >= settings.contact_threshold;
+        node.nominal_pressure = touches ? nominal[i] : 0.;
+        node.regime           = touches ? Regime::mixed : Regime::no_contact;
+        if (moving)
+          {
+            slip[i]      = slid[i] / elapsed;
+            lubricant[i] = state[i].lubricant_pressure;
+          }
+      }
+    iterate_film(positions, nodes, contacts, slip, lubricant, moving);
+    find_friction(positions, nodes, slip);
+
+    earlier_pressure[1] = std::move(earlier_pressure[0]);
+    earlier_pressure[0] = lubricant_pressures(state);
+    state               = std::move(nodes);
+    ++n_updates;
+    find_statistics(elapsed);
+    elapsed = travelled = 0;
+    slid.assign(slid.size(), Eigen::Vector3d::Zero());
+    return true;
+  }
+
+  void
+  LubricatedFace::check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const
+  {
+    if (positions.size() != state.size() || contacts.size() != state.size())
+      throw InputError(describe_error("Wrong number of nodes for the film of a face", "update of the film",
+                                      std::to_string(positions.size()) + " positions, "
+                                          + std::to_string(contacts.size()) + " contacts",
+                                      std::to_string(state.size())));
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (contacts[i].table >= static_cast<int>(tables.size()) || !std::isfinite(contacts[i].nominal_pressure)
+          || !std::isfinite(contacts[i].eps_p))
+        throw InputError(describe_error(
+            "A node of the film has no meaningful contact state", "node " + std::to_string(i),
+            "table " + std::to_string(contacts[i].table) + ", pressure " + std::to_string(contacts[i].nominal_pressure)
+                + " MPa, strain " + std::to_string(contacts[i].eps_p)));
+  }
+
+  bool
+  LubricatedFace::accumulate(const std::vector<Contact> &contacts, const Increment &increment)
+  {
+    if (increment.at_rest)
+      {
+        elapsed = travelled = 0;
+        slid.assign(slid.size(), Eigen::Vector3d::Zero());
+        return true;
+      }
+    elapsed += increment.dt;
+    travelled += std::abs(increment.travel);
+    for (std::size_t i = 0; i < slid.size(); ++i)
+      slid[i] += increment.dt * (contacts[i].sheet_velocity - contacts[i].tool_velocity);
+    // Equal steps of the smallest travel shall not miss it by round-off.
+    return elapsed > 0 && travelled >= (1. - 1e-9) * settings.smallest_travel;
+  }
+
+  void
+  LubricatedFace::iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                               const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
+                               std::vector<double> lubricant, const bool moving)
+  {
+    figures.active_set_iterations = figures.film_iterations = 0;
+    figures.film_change                                     = 0;
+    figures.converged                                       = true;
+    for (unsigned iteration = 1; iteration <= settings.film_iterations; ++iteration)
+      {
+        flatten(nodes, contacts, lubricant);
+        if (!moving)
+          return;
+        const auto result       = solve_film(positions, nodes, slip_velocity, lubricant);
+        figures.film_iterations = iteration;
+        figures.active_set_iterations += result.iterations;
+        figures.converged = figures.converged && result.converged;
+        double change = 0, largest = 0;
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          {
+            Node &node = nodes[i];
+            // A node without pressure (open, starved) is not relaxed: it has none.
+            const bool   carries    = node.regime == Regime::mixed && !edge[i];
+            const double p          = carries
+                                          ? std::min(node.nominal_pressure, (1. - settings.film_relaxation) * lubricant[i]
+                                                                                + settings.film_relaxation * result.pressure[i])
+                                          : 0.;
+            change                  = std::max(change, std::abs(p - lubricant[i]));
+            largest                 = std::max(largest, p);
+            lubricant[i]            = p;
+            node.lubricant_pressure = p;
+            node.solid_pressure     = node.nominal_pressure - p;
+            node.opening_rate       = result.opening_rate[i];
+          }
+        figures.film_change = largest > 0 ? change / largest : 0.;
+        if (figures.film_change < film_tolerance)
+          break;
+      }
+    for (auto &node : nodes)
+      if (node.regime == Regime::mixed && node.lubricant_pressure >= (1. - 1e-12) * node.nominal_pressure)
+        node.regime = Regime::full;
+  }
+
+  void
+  LubricatedFace::flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
+                          const std::vector<double> &lubricant) const
+  {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        Node       &node = nodes[i];
+        const Node &old  = state[i];
+        node.cut_height  = old.cut_height;
+        // A node that has just come into contact is first pressed by its full load, else it would be judged on its
+        // undeformed valleys and starve.
+        const double before = old.in_contact() ? lubricant[i] : 0.;
+        if (node.in_contact())
+          node.cut_height = table(node.table)
+                                .advance(old.cut_height, std::max(0., node.nominal_pressure - before), old.eps_p,
+                                         contacts[i].eps_p);
+        set_film(node, table(node.table));
+        node.lubricant_pressure = node.opening_rate = 0;
+        node.solid_pressure                         = node.nominal_pressure;
+        if (node.in_contact())
+          node.regime = node.supplied_film < node.film_thickness ? Regime::boundary : Regime::mixed;
+      }
+  }
+
+  AverageReynolds::Result
+  LubricatedFace::solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
+                             const std::vector<Eigen::Vector3d> &slip_velocity,
+                             const std::vector<double>          &lubricant) const
+  {
+    std::vector<AverageReynolds::NodeData> data(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        const Node &node = nodes[i];
+        auto       &d    = data[i];
+        d.fixed          = node.regime != Regime::mixed || edge[i];
+        d.film           = node.film_thickness;
+        d.viscosity      = viscosity(node, slip_velocity[i], lubricant[i]);
+        d.phi_p          = node.phi_p;
+        d.sq_phi_s       = table(node.table).sq * node.phi_s;
+        d.sheet_velocity = slip_velocity[i]; // in the frame of the tool
+        d.p_limit        = node.nominal_pressure;
+      }
+    return reynolds.solve(positions, data, lubricant);
+  }
+
+  double
+  LubricatedFace::viscosity(const Node &node, const Eigen::Vector3d &slip_velocity, const double pressure) const
+  {
+    return viscosity_law->viscosity(pressure, slip_velocity.norm() / node.film_thickness).viscosity;
+  }
+
+  double
+  LubricatedFace::boundary_layer_pressure(const Node &node) const
+  {
+    const double alpha = node.contact_fraction;
+    if (settings.boundary_layer_pressure == LubricationSettings::BoundaryLayerPressure::nominal)
+      return alpha > 0 ? node.nominal_pressure / alpha : 0.;
+    return (alpha > 0 ? node.solid_pressure / alpha : 0.) + node.lubricant_pressure;
+  }
+
+  void
+  LubricatedFace::find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                                const std::vector<Eigen::Vector3d> &slip_velocity)
+  {
+    const auto gradient        = reynolds.nodal_gradient(positions, lubricant_pressures(nodes));
+    figures.n_clamped_friction = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      {
+        Node &node = nodes[i];
+        if (!node.in_contact())
+          {
+            node.friction_coefficient = fresh_friction(node);
+            continue;
+          }
+        const double solid
+            = table(node.table)
+                  .solid_shear(node.cut_height, node.solid_pressure, boundary_layer_pressure(node), node.eps_p);
+        const Eigen::Vector3d &n     = patch.normal()[i];
+        const Eigen::Vector3d  slip  = slip_velocity[i] - n * n.dot(slip_velocity[i]);
+        const double           speed = slip.norm();
+        double                 shear = solid;
+        if (speed > 0 && node.regime != Regime::boundary)
+          {
+            // Traction on the sheet: against its sliding (Eqs. 17 and 19; solid_shear() is per nominal area).
+            const Eigen::Vector3d viscous = -viscosity(node, slip, node.lubricant_pressure) / node.film_thickness * slip
+                                            - 0.5 * node.film_thickness * (gradient[i] - n * n.dot(gradient[i]));
+            shear = (-solid / speed * slip + (1. - node.contact_fraction) * viscous).norm();
+          }
+        const double mu           = shear / node.nominal_pressure;
+        node.friction_coefficient = std::clamp(mu, settings.min_friction, settings.max_friction);
+        figures.n_clamped_friction += node.friction_coefficient != mu;
+      }
+  }
+
+  double
+  LubricatedFace::fresh_friction(const Node &node) const
+  {
+    const FrictionTable &t     = table(node.table);
+    const double         p     = settings.fresh_contact_pressure;
+    const double         s     = t.advance(node.cut_height, p, node.eps_p, node.eps_p);
+    const double         alpha = t.film(s).contact_fraction;
+    const double         shear = t.solid_shear(s, p, alpha > 0 ? p / alpha : 0., node.eps_p);
+    return std::clamp(shear / p, settings.min_friction, settings.max_friction);
+  }
+
+  void
+  LubricatedFace::find_statistics(const double time)
+  {
+    const auto &area    = patch.nodal_area();
+    double      nominal = 0, lubricant = 0, starved = 0, capped = 0, shear = 0, change = 0;
+    figures.contact_area = figures.volume = figures.max_lubricant_pressure = figures.nominal_pressure_there = 0;
+    figures.max_node                                                                                        = -1;
+    figures.min_film = figures.max_film = 0;
+    for (std::size_t i = 0; i < state.size(); ++i)
+      {
+        const Node &node = state[i];
+        figures.volume += area[i] * node.supplied_film;
+        figures.opening_volume += area[i] * node.opening_rate * time;
+        if (n_updates > 2)
+          change += area[i] * std::abs(node.lubricant_pressure - 2. * earlier_pressure[0][i] + earlier_pressure[1][i]);
+        if (!node.in_contact())
+          continue;
+        figures.min_film
+            = figures.contact_area > 0 ? std::min(figures.min_film, node.film_thickness) : node.film_thickness;
+        figures.max_film = std::max(figures.max_film, node.film_thickness);
+        figures.contact_area += area[i];
+        nominal += area[i] * node.nominal_pressure;
+        lubricant += area[i] * node.lubricant_pressure;
+        shear += area[i] * node.nominal_pressure * node.friction_coefficient;
+        starved += node.regime == Regime::boundary ? area[i] : 0.;
+        capped += node.regime == Regime::full ? area[i] : 0.;
+        if (node.lubricant_pressure > figures.max_lubricant_pressure)
+          {
+            figures.max_lubricant_pressure = node.lubricant_pressure;
+            figures.nominal_pressure_there = node.nominal_pressure;
+            figures.max_node               = static_cast<int>(i);
+          }
+      }
+    const auto ratio              = [](const double a, const double b) { return b > 0 ? a / b : 0.; };
+    figures.load_share            = ratio(lubricant, nominal);
+    figures.starved_area_fraction = ratio(starved, figures.contact_area);
+    figures.capped_area_fraction  = ratio(capped, figures.contact_area);
+    figures.mean_friction         = ratio(shear, nominal);
+    figures.oscillation           = ratio(change, lubricant);
+    figures.volume_error          = ratio(figures.volume - figures.supplied_volume, figures.supplied_volume);
+  }
+
+  std::string
+  LubricatedFace::report() const
+  {
+    char text[400];
+    std::snprintf(
+        text, sizeof text,
+        "mu %.4f, lubricant carries %.1f %%, starved %.1f %%, at bound %.1f %%, h %.2f-%.2f um, P_lub <= %.2f MPa"
+        " (P_nom %.2f), opening %.3g mm^3, oscillation %.2f",
+        figures.mean_friction, 100. * figures.load_share, 100. * figures.starved_area_fraction,
+        100. * figures.capped_area_fraction, 1e3 * figures.min_film, 1e3 * figures.max_film,
+        figures.max_lubricant_pressure, figures.nominal_pressure_there, figures.opening_volume, figures.oscillation);
+    return text;
+  }
+} // namespace tribodraw

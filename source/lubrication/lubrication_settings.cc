@@ -1,0 +1,68 @@
+#include <tribodraw/base/parameters.h>
+#include <tribodraw/lubrication/lubrication_settings.h>
+
+namespace tribodraw
+{
+  LubricationSettings
+  LubricationSettings::read(Parameters &parameters)
+  {
+    LubricationSettings s;
+    {
+      const auto scope = parameters.section("Lubricant");
+      parameters.choice(
+          "Supply", { "paper rule" },
+          "What decides whether there is enough lubricant. `paper rule`: the lubricant stays where it is on "
+          "the sheet, and where it does not fill the valleys (h_inp A0/A < h_avg) there is boundary "
+          "friction without lubricant pressure.",
+          Default{ "paper rule", "the rule of Shisode et al. (2021)" });
+      s.supply = Supply::paper_rule;
+    }
+    const auto        scope = parameters.section("Coupling");
+    const std::string p0    = parameters.choice(
+           "Boundary layer pressure", { "solid plus lubricant", "nominal" },
+           "Pressure P0 in the law of the boundary layer, tau_BL(P0). `solid plus lubricant`: P_solid/alpha + P_lub, the "
+              "pressure on an asperity top; `nominal`: P_nom/alpha as printed in the paper, which makes the solid friction "
+              "independent of the lubricant pressure.",
+           Default{ "solid plus lubricant",
+                 "equilibrium of an asperity top that carries load beside pressurised valleys" });
+    s.boundary_layer_pressure
+        = p0 == "nominal" ? BoundaryLayerPressure::nominal : BoundaryLayerPressure::solid_plus_lubricant;
+    s.film_iterations = static_cast<unsigned>(parameters.integer(
+        "Film iterations", Range::between(1, 50),
+        "Film solutions in an increment at most (flattening and pressure in turn).",
+        Default{
+            "1",
+            "with asperities that never rise again, iterating changed the drawing force by less than its scatter" }));
+    s.film_relaxation = parameters.quantity(
+        "Film relaxation", "", Range{ 0.05, 1. },
+        "Part of the new lubricant pressure that is taken over in a film solution.",
+        Default{ "1", "the cut height as a state damps the film; less only makes the pressure lag" });
+    s.contact_threshold = parameters.quantity(
+        "Contact threshold", "MPa", Range::positive().usual(1e-4, 1),
+        "Smallest nominal pressure that counts as contact.",
+        Default{ "0.05 MPa", "far below any pressure in drawing, above the noise of nearly open contact" });
+    s.fresh_contact_pressure
+        = parameters.quantity("Fresh contact pressure", "MPa", Range::positive().usual(0.1, 100),
+                              "Pressure for which nodes that are not in contact get their friction coefficient, in "
+                              "case they touch in the next "
+                              "increment.",
+                              Default{ "3 MPa", "usual pressure under a blank holder; acts for one increment only" });
+    s.smallest_travel = parameters.quantity(
+        "Smallest travel", "mm", Range::non_negative().usual(0, 5),
+        "Punch travel between solutions of the film; motion is averaged over it.",
+        Default{ "0.2 mm", "over less, elastic slip and rebound of the sheet falsify the velocities" });
+    s.min_friction = parameters.quantity(
+        "Smallest friction coefficient", "", Range::between(0, 1), "Lower limit of the local friction coefficient.",
+        Default{ "0.005", "full-film nodes need some friction for a definite tangent" });
+    s.max_friction = parameters.quantity(
+        "Largest friction coefficient", "", Range{ 0., 1., true }, "Upper limit of the local friction coefficient.",
+        Default{ "0.3", "the power law of the boundary layer has no limit when a flattened node is unloaded" });
+    s.phi_p_floor = parameters.quantity(
+        "Smallest pressure factor", "", Range{ 0., 1., true }.usual(1e-6, 0.1),
+        "Lower limit of the eigenvalues of the pressure flow factor.",
+        Default{ "1e-3", "below percolation it is zero; forces agree within 0.1 % for 1e-2 to 1e-4" });
+    if (s.min_friction > s.max_friction)
+      parameters.problem("Smallest friction coefficient", "It is above `Largest friction coefficient`.");
+    return s;
+  }
+} // namespace tribodraw

@@ -1,0 +1,57 @@
+#include <tribodraw/lubrication/surface_patch.h>
+
+#include <Eigen/Geometry>
+
+namespace tribodraw
+{
+  SurfacePatch::SurfacePatch(const std::size_t n_nodes, std::vector<std::array<unsigned, 3>> triangles)
+      : cells(std::move(triangles)), area(n_nodes, 0.), cell_area(cells.size(), 0.),
+        normals(n_nodes, Eigen::Vector3d::Zero())
+  {
+  }
+
+  void
+  SurfacePatch::move_to(const std::vector<Eigen::Vector3d> &x)
+  {
+    area.assign(area.size(), 0.);
+    normals.assign(normals.size(), Eigen::Vector3d::Zero());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        const auto           &t = cells[c];
+        const Eigen::Vector3d n = 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+        cell_area[c]            = n.norm();
+        for (const unsigned i : t)
+          {
+            area[i] += cell_area[c] / 3.;
+            normals[i] += n;
+          }
+      }
+    for (auto &n : normals)
+      n.normalize();
+  }
+
+  std::vector<double>
+  SurfacePatch::smooth(const std::vector<double> &values) const
+  {
+    std::vector<double> sum(values.size(), 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        const auto  &t    = cells[c];
+        const double mean = (values[t[0]] + values[t[1]] + values[t[2]]) / 3.;
+        for (const unsigned i : t)
+          sum[i] += cell_area[c] / 3. * mean;
+      }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] /= area[i];
+    return sum;
+  }
+
+  double
+  SurfacePatch::integral(const std::vector<double> &values) const
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += values[i] * area[i];
+    return sum;
+  }
+} // namespace tribodraw
