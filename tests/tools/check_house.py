@@ -39,7 +39,7 @@ def check_listing(module, problems):
     problems += [f"{listing}: '{name}' does not exist" for name in listed if not (module / name).exists()]
     call = re.search(r"tribodraw_module\(([^)]*)\)", text)
     in_order = SOURCE.findall(call.group(1)) if call else []
-    if in_order != sorted(in_order):
+    if in_order != sorted(in_order, key=lambda name: (name.count("/"), name)):  # subfolders last
         problems.append(f"{listing}: the sources are not sorted")
 
 
