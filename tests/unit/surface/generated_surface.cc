@@ -208,9 +208,16 @@ TEST(GeneratedSurface, TwoCorrelationLengthsGiveALay)
 
 TEST(GeneratedSurface, GaussianSaFollowsFromSq)
 {
-  // Sa = sqrt(2/pi) Sq for Gaussian heights. Standard deviation over seeds 100 to 123: 0.0025; four of them.
-  const auto r = roughness(make(gaussian(666, 11, "24 um")));
-  EXPECT_NEAR(r.sa / r.sq, std::sqrt(2 / pi), 4 * 0.0025);
+  // Sa = sqrt(2/pi) Sq for Gaussian heights. Sampling: the Hermite terms of |z| of order 4 and 6 (order 2 is removed by
+  // the scaling to Sq) give var = (2/pi) [24/24^2 int r^4 + 9 * 720/720^2 int r^6] / A, with int r^n = 2 pi l^2 / n and
+  // A/(pi l^2) = 2206: 0.0027 for one map (over seeds 0 to 399 it is 0.0029). The mean of eight maps, four deviations.
+  double sum = 0;
+  for (int seed = 11; seed < 19; ++seed)
+    {
+      const auto r = roughness(make(gaussian(666, seed, "24 um")));
+      sum += r.sa / r.sq;
+    }
+  EXPECT_NEAR(sum / 8, std::sqrt(2 / pi), 4 * 0.0029 / std::sqrt(8.));
 }
 
 TEST(GeneratedSurface, BimodalMapHasPlateausAndCraters)
@@ -240,10 +247,10 @@ TEST(GeneratedSurface, BimodalMapHasPlateausAndCraters)
   const double fine = 0.12 * 0.12, variance = m[2] + fine;
   const double ssk = m[3] / std::pow(variance, 1.5),
                sku = (m[4] + 6 * m[2] * fine + 3 * fine * fine) / (variance * variance);
-  // Standard deviation over seeds 100 to 123 of this surface: Ssk 0.0245, Sku 0.0254. Four of them are allowed.
+  // Standard deviation over seeds 0 to 199 of this surface: Ssk 0.0258, Sku 0.0299. Four of them are allowed.
   EXPECT_LT(r.ssk, 0.);
-  EXPECT_NEAR(r.ssk, ssk, 4 * 0.0245);
-  EXPECT_NEAR(r.sku, sku, 4 * 0.0254);
+  EXPECT_NEAR(r.ssk, ssk, 4 * 0.0258);
+  EXPECT_NEAR(r.sku, sku, 4 * 0.0299);
   EXPECT_LT(r.sku, 2.);
 }
 
