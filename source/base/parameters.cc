@@ -574,12 +574,12 @@ namespace tribodraw
         if (entry.used)
           continue;
         const auto idle = std::find_if(unselected.begin(), unselected.end(), [&p = path](const std::string &s) {
-          return p.compare(0, s.size() + 1, s + "/") == 0;
+          return p == s || p.compare(0, s.size() + 1, s + "/") == 0;
         });
         if (idle != unselected.end())
           {
             if (idle_sections.insert(*idle).second)
-              warnings.push_back(entry.where + ": the entries of '" + *idle + "' have no effect, because another model is selected.");
+              warnings.push_back(entry.where + ": '" + *idle + "' has no effect with the choices made in this file.");
             continue;
           }
         const auto               slash  = path.rfind('/');

@@ -43,7 +43,12 @@ namespace tribodraw
                     std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero())};
       }
     for (auto &t : tool)
-      t.committed_z = t.z;
+      {
+        t.committed_z = t.z;
+        // tools that touch at the start already lean on the transition range: nobody worked for that energy
+        for (unsigned i = 0; i < shell.n_nodes(); ++i)
+          initially_stored += area[i] * energy(half_thickness[i] - t.distance(shell.trial().position[i]).distance);
+      }
   }
 
   void
@@ -185,7 +190,7 @@ namespace tribodraw
   void
   Contact::commit()
   {
-    stored = 0;
+    stored = -initially_stored;
     for (auto &f : faces)
       {
         std::fill(f.pressure.begin(), f.pressure.end(), 0.);

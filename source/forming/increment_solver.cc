@@ -84,11 +84,7 @@ namespace tribodraw
   IncrementSolver::evaluate(const Load &load, const Shell::AssemblyOptions &options)
   {
     K.set_zero();
-    bool valid;
-    {
-      const timing::Scope scope("shell/assemble");
-      valid = shell.assemble(load.dt, options, R, &K);
-    }
+    const bool valid = shell.assemble(load.dt, options, R, &K);
     const timing::Scope scope("contact/assemble");
     set_tools(load, true);
     contact.assemble(R, &K, {});

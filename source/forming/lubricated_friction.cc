@@ -1,0 +1,138 @@
+#include <tribodraw/forming/lubricated_friction.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tribodraw
+{
+  namespace
+  {
+    const char *const side[n_faces] = {"punch", "die"};
+  }
+
+  LubricatedFriction::LubricatedFriction(std::vector<std::shared_ptr<const FrictionTable>> tool_tables, const Lubricant &oil, const LubricationSettings &lubrication_settings)
+    : tables(std::move(tool_tables))
+    , lubricant(oil)
+    , settings(lubrication_settings)
+  {}
+
+  void
+  LubricatedFriction::start(const Shell &shell, Contact &contact)
+  {
+    const BlankMesh                                                                &mesh = shell.mesh();
+    std::array<std::vector<std::shared_ptr<const FrictionTable>>, n_faces> face_tables;
+    table_of_tool.clear();
+    for (std::size_t t = 0; t < contact.tools().size(); ++t)
+      {
+        auto &list = face_tables[static_cast<int>(contact.tools()[t].face)];
+        table_of_tool.push_back(static_cast<int>(list.size()));
+        list.push_back(tables[t]);
+      }
+    for (unsigned f = 0; f < n_faces; ++f)
+      faces[f] = std::make_unique<LubricatedFace>(mesh.nodes, mesh.triangles, mesh.on_outer_edge, face_tables[f], lubricant.viscosity_law, lubricant.supplied_film(), settings);
+    hand_over(contact);
+  }
+
+  void
+  LubricatedFriction::hand_over(Contact &contact) const
+  {
+    for (unsigned f = 0; f < n_faces; ++f)
+      {
+        std::vector<double> mu;
+        mu.reserve(faces[f]->nodes().size());
+        for (const auto &node : faces[f]->nodes())
+          mu.push_back(node.friction_coefficient);
+        contact.set_friction(static_cast<Face>(f), std::move(mu));
+      }
+  }
+
+  void
+  LubricatedFriction::update(const Shell &shell, Contact &contact, const Increment &increment)
+  {
+    const unsigned                       n = shell.n_nodes();
+    std::vector<LubricatedFace::Contact> touching(n);
+    for (unsigned f = 0; f < n_faces; ++f)
+      {
+        const Contact::FaceState &state = contact.face(static_cast<Face>(f));
+        for (unsigned i = 0; i < n; ++i)
+          {
+            touching[i]                  = {};
+            touching[i].nominal_pressure = state.pressure[i];
+            touching[i].eps_p            = shell.node_eps_p()[i];
+            if (state.tool[i] < 0)
+              continue;
+            touching[i].table = table_of_tool[state.tool[i]];
+            // relative to the tool, whose velocity is then zero
+            touching[i].sheet_velocity = state.slip[i] / increment.dt;
+          }
+        faces[f]->update(shell.committed().position, touching, {increment.dt, increment.travel, increment.closing});
+      }
+    hand_over(contact);
+  }
+
+  FrictionCoupling::Summary
+  LubricatedFriction::summary() const
+  {
+    Summary s;
+    double  area = 0, starved = 0;
+    for (unsigned f = 0; f < n_faces; ++f)
+      {
+        const auto &figures         = faces[f]->statistics();
+        s.max_lubricant_pressure[f] = figures.max_lubricant_pressure;
+        s.mean_mu[f]                = figures.mean_friction;
+        area += figures.contact_area;
+        starved += figures.contact_area * figures.starved_area_fraction;
+        s.lubricant_volume_error = std::max(s.lubricant_volume_error, std::abs(figures.volume_error));
+      }
+    s.starved_area_fraction = area > 0 ? starved / area : 0.;
+    return s;
+  }
+
+  std::map<std::string, std::vector<double>>
+  LubricatedFriction::fields() const
+  {
+    std::map<std::string, std::vector<double>> result;
+    const double                               none = std::numeric_limits<double>::quiet_NaN();
+    for (unsigned f = 0; f < n_faces; ++f)
+      {
+        const std::string end = std::string("_") + side[f];
+        for (const auto &node : faces[f]->nodes())
+          {
+            const bool touches = node.in_contact();
+            const auto add     = [&](const char *name, const double value) { result[name + end].push_back(touches ? value : none); };
+            add("solid_pressure", node.solid_pressure);
+            add("lubricant_pressure", node.lubricant_pressure);
+            add("film_thickness", node.film_thickness);
+            add("contact_fraction", node.contact_fraction);
+            add("phi_p", 0.5 * node.phi_p.trace());
+            add("phi_s", 0.5 * node.phi_s.trace());
+            add("lubrication_regime", static_cast<double>(node.regime));
+          }
+      }
+    return result;
+  }
+
+  std::string
+  LubricatedFriction::report() const
+  {
+    const auto &die = faces[static_cast<int>(Face::die_side)]->statistics();
+    char        text[160];
+    std::snprintf(text, sizeof(text), "film: load share %.2f, starved %.2f, P_lub %.1f MPa", die.load_share, die.starved_area_fraction, die.max_lubricant_pressure);
+    return text;
+  }
+
+  void
+  LubricatedFriction::save(Archive &archive) const
+  {
+    for (unsigned f = 0; f < n_faces; ++f)
+      faces[f]->save(archive, std::string("lubrication/") + side[f]);
+  }
+
+  void
+  LubricatedFriction::load(const Archive &archive)
+  {
+    for (unsigned f = 0; f < n_faces; ++f)
+      faces[f]->load(archive, std::string("lubrication/") + side[f]);
+  }
+} // namespace tribodraw

@@ -170,6 +170,10 @@ namespace tribodraw
       return result;
     }
 
+    /// Subsection or entry @p name of the current subsection has no effect with the choices made elsewhere in the file: if it
+    /// is given, that is a warning and not a mistake.
+    void mark_unselected(const std::string &name);
+
     /// Record a mistake of entry @p entry in the current subsection (empty: of the subsection itself).
     void problem(const std::string &entry,
                  const std::string &what,
@@ -199,7 +203,6 @@ namespace tribodraw
                              const std::vector<std::string> &descriptions,
                              const std::string              &documentation,
                              const std::optional<Default>   &default_value);
-    void        mark_unselected(const std::string &section);
     void        record_exception(const std::string &what);
 
     /// `von Mises` -> `Von Mises`: subsections are written with a capital.

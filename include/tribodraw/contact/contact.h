@@ -128,7 +128,7 @@ namespace tribodraw
     std::vector<std::vector<NodeTool>>                  pair;                 // [tool][node]
     std::array<FaceState, n_faces>                      faces;
     std::vector<Eigen::Vector3d>                        tool_force;
-    double                                              scale = 0, dissipated = 0, stored = 0;
+    double                                              scale = 0, dissipated = 0, stored = 0, initially_stored = 0;
   };
 } // namespace tribodraw
 

@@ -1,0 +1,59 @@
+#ifndef tribodraw_output_forming_output_h
+#define tribodraw_output_forming_output_h
+
+#include <tribodraw/base/csv.h>
+#include <tribodraw/forming/simulation.h>
+#include <tribodraw/material/forming_limit.h>
+#include <tribodraw/output/vtu.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace tribodraw
+{
+  /// history.csv (one row per committed increment with punch travel or closing) and energy.csv (work, energies, force
+  /// balance, solver figures). Forces and energies are of the full part.
+  class HistoryWriter : public Observer
+  {
+  public:
+    explicit HistoryWriter(std::filesystem::path folder);
+    void committed(const Simulation &simulation, const IncrementRecord &record) override;
+    void finished(const Simulation &simulation, bool converged) override;
+    void save(Archive &archive) const override;
+    void load(const Archive &archive) override;
+
+  private:
+    void write() const;
+
+    std::filesystem::path folder;
+    CsvTable              history, energy;
+  };
+
+  /// solution.pvd with VTU steps every so much punch travel, and at the end nodes_final.csv, elements_final.csv and
+  /// flc.csv, from which the figures are drawn.
+  class FieldWriter : public Observer
+  {
+  public:
+    /// @param travel_between punch travel between two VTU steps [mm]; the first and the last state are always written
+    FieldWriter(std::filesystem::path folder, double travel_between, std::shared_ptr<const FormingLimitCurve> limit);
+    void committed(const Simulation &simulation, const IncrementRecord &record) override;
+    void finished(const Simulation &simulation, bool converged) override;
+    void save(Archive &archive) const override;
+    void load(const Archive &archive) override;
+
+  private:
+    SurfaceFields collect(const Simulation &simulation) const;
+    void          write_step(const Simulation &simulation, const IncrementRecord &record);
+    void          write_final(const Simulation &simulation) const;
+
+    std::filesystem::path                    folder;
+    double                                   travel_between, next_travel = 0;
+    unsigned                                 step = 0;
+    std::shared_ptr<const FormingLimitCurve> limit;
+    PvdCollection                            collection;
+    std::vector<Eigen::Vector3d>             previous_position, velocity;
+    double                                   previous_time = 0, last_written = -1;
+  };
+} // namespace tribodraw
+
+#endif

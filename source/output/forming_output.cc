@@ -1,0 +1,267 @@
+#include <tribodraw/base/parallel.h>
+#include <tribodraw/output/forming_output.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace tribodraw
+{
+  using Eigen::Vector3d;
+
+  namespace
+  {
+    /// Rows of a numeric table as one array, for the checkpoint.
+    std::vector<double> flatten(const CsvTable &table)
+    {
+      std::vector<double> values;
+      for (const auto &row : table.rows())
+        for (const auto &cell : row)
+          values.push_back(std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell)) : std::get<double>(cell));
+      return values;
+    }
+
+    void restore(CsvTable &table, const std::vector<double> &values, const std::vector<bool> &is_integer)
+    {
+      table.truncate(0);
+      const std::size_t n = is_integer.size();
+      for (std::size_t r = 0; r + n <= values.size(); r += n)
+        {
+          std::vector<CsvTable::Cell> row;
+          for (std::size_t c = 0; c < n; ++c)
+            if (is_integer[c])
+              row.emplace_back(static_cast<long>(values[r + c]));
+            else
+              row.emplace_back(values[r + c]);
+          table.add_row(row);
+        }
+    }
+
+    std::vector<bool> last_is_integer(const std::size_t n)
+    {
+      std::vector<bool> integer(n, false);
+      integer.back() = true;
+      return integer;
+    }
+
+    const char *side(const unsigned face)
+    {
+      return face == static_cast<unsigned>(Face::die_side) ? "die" : "punch";
+    }
+  } // namespace
+
+  HistoryWriter::HistoryWriter(std::filesystem::path output_folder)
+    : folder(std::move(output_folder))
+    , history({"time_s", "punch_travel_mm", "punch_force_n", "die_force_n", "blank_holder_force_n", "draw_in_x_mm", "draw_in_y_mm", "draw_in_diagonal_mm",
+               "min_thickness_mm", "max_eps_p", "max_lubricant_pressure_die_mpa", "max_lubricant_pressure_punch_mpa", "mean_mu_die", "mean_mu_punch",
+               "starved_area_fraction", "lubricant_volume_error", "newton_iterations"})
+    , energy({"time_s", "punch_travel_mm", "increment_mm", "external_work_j", "elastic_energy_j", "plastic_work_j", "friction_work_j", "contact_energy_j",
+              "energy_error", "force_imbalance", "residual", "max_penetration_mm", "newton_iterations"})
+  {}
+
+  void
+  HistoryWriter::committed(const Simulation &, const IncrementRecord &r)
+  {
+    const unsigned punch = static_cast<unsigned>(Face::punch_side), die = static_cast<unsigned>(Face::die_side);
+    const auto     its = static_cast<long>(r.newton_iterations);
+    history.add_row({r.time, r.punch_travel, r.punch_force, r.die_force, r.blank_holder_force, r.draw_in_x, r.draw_in_y, r.draw_in_diagonal, r.min_thickness,
+                     r.max_eps_p, r.friction.max_lubricant_pressure[die], r.friction.max_lubricant_pressure[punch], r.friction.mean_mu[die],
+                     r.friction.mean_mu[punch], r.friction.starved_area_fraction, r.friction.lubricant_volume_error, its});
+    const double joule = 1e-3; // 1 N mm
+    energy.add_row({r.time, r.punch_travel, r.increment, joule * r.external_work, joule * r.elastic_energy, joule * r.plastic_work, joule * r.friction_work,
+                    joule * r.contact_energy, r.energy_error(), r.force_imbalance, r.residual, r.max_penetration, its});
+    write();
+  }
+
+  void
+  HistoryWriter::finished(const Simulation &, bool)
+  {
+    write();
+  }
+
+  void
+  HistoryWriter::write() const
+  {
+    if (parallel::rank() != 0)
+      return;
+    history.save(folder / "history.csv");
+    energy.save(folder / "energy.csv");
+  }
+
+  void
+  HistoryWriter::save(Archive &archive) const
+  {
+    archive.put("output/history", flatten(history));
+    archive.put("output/energy", flatten(energy));
+  }
+
+  void
+  HistoryWriter::load(const Archive &archive)
+  {
+    restore(history, archive.numbers("output/history"), last_is_integer(history.columns().size()));
+    restore(energy, archive.numbers("output/energy"), last_is_integer(energy.columns().size()));
+  }
+
+  FieldWriter::FieldWriter(std::filesystem::path output_folder, const double distance, std::shared_ptr<const FormingLimitCurve> forming_limit)
+    : folder(std::move(output_folder))
+    , travel_between(distance)
+    , limit(std::move(forming_limit))
+  {}
+
+  SurfaceFields
+  FieldWriter::collect(const Simulation &simulation) const
+  {
+    const Shell  &shell = simulation.shell();
+    SurfaceFields fields;
+    fields.points    = shell.committed().position;
+    fields.triangles = shell.mesh().triangles;
+    fields.node_scalars["thickness"] = shell.node_thickness();
+    fields.units["thickness"]        = "mm";
+    auto &displacement = fields.node_vectors["displacement"];
+    for (unsigned i = 0; i < shell.n_nodes(); ++i)
+      displacement.push_back(fields.points[i] - shell.mesh().nodes[i]);
+    fields.node_vectors["velocity"] = velocity.empty() ? std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero()) : velocity;
+    fields.units["displacement"]    = "mm";
+    fields.units["velocity"]        = "mm/s";
+    for (unsigned f = 0; f < n_faces; ++f)
+      {
+        const auto &face     = simulation.contact().face(static_cast<Face>(f));
+        auto       &pressure = fields.node_scalars[std::string("contact_pressure_") + side(f)];
+        auto       &mu       = fields.node_scalars[std::string("friction_coefficient_") + side(f)];
+        for (unsigned i = 0; i < shell.n_nodes(); ++i)
+          {
+            pressure.push_back(face.pressure[i]);
+            mu.push_back(face.tool[i] >= 0 ? simulation.contact().friction(static_cast<Face>(f))[i] : std::numeric_limits<double>::quiet_NaN());
+          }
+        fields.units[std::string("contact_pressure_") + side(f)] = "MPa";
+      }
+    for (auto &[name, values] : simulation.friction().fields())
+      {
+        fields.node_scalars[name] = values;
+        if (name.find("pressure") != std::string::npos)
+          fields.units[name] = "MPa";
+        else if (name.find("film_thickness") != std::string::npos)
+          fields.units[name] = "mm";
+      }
+    const auto elements = shell.element_results();
+    fields.cell_scalars["major_strain"] = elements.major_strain;
+    fields.cell_scalars["minor_strain"] = elements.minor_strain;
+    fields.cell_scalars["eps_p"]        = elements.eps_p;
+    if (limit)
+      {
+        auto &margin = fields.cell_scalars["flc_margin"];
+        for (std::size_t e = 0; e < elements.major_strain.size(); ++e)
+          margin.push_back(forming_limit_margin(*limit, elements.major_strain[e], elements.minor_strain[e]));
+      }
+    return fields;
+  }
+
+  void
+  FieldWriter::write_step(const Simulation &simulation, const IncrementRecord &r)
+  {
+    SurfaceFields fields = collect(simulation);
+    fields.time          = r.time;
+    fields.cycle         = step;
+    char name[40];
+    std::snprintf(name, sizeof(name), "solution_%04u.vtu", step++);
+    if (parallel::rank() == 0)
+      write_vtu(folder / name, fields);
+    collection.add(r.time, name);
+    if (parallel::rank() == 0)
+      collection.save(folder / "solution.pvd");
+    last_written = r.time;
+  }
+
+  void
+  FieldWriter::committed(const Simulation &simulation, const IncrementRecord &r)
+  {
+    const auto &position = simulation.shell().committed().position;
+    const auto &before   = previous_position.empty() ? simulation.shell().mesh().nodes : previous_position;
+    velocity.resize(position.size());
+    for (std::size_t i = 0; i < position.size(); ++i)
+      velocity[i] = (position[i] - before[i]) / (r.time - previous_time);
+    previous_position = position;
+    previous_time     = r.time;
+    if (r.punch_travel > 0 && r.punch_travel >= next_travel)
+      {
+        next_travel = r.punch_travel + travel_between;
+        write_step(simulation, r);
+      }
+  }
+
+  void
+  FieldWriter::finished(const Simulation &simulation, bool)
+  {
+    const IncrementRecord &r = simulation.record();
+    if (r.time != last_written)
+      write_step(simulation, r);
+    if (parallel::rank() == 0)
+      write_final(simulation);
+  }
+
+  void
+  FieldWriter::write_final(const Simulation &simulation) const
+  {
+    const SurfaceFields fields = collect(simulation);
+    const auto         &start  = simulation.shell().mesh().nodes;
+    std::vector<std::string> columns = {"node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm"};
+    for (const auto &[name, values] : fields.node_scalars)
+      columns.push_back(name);
+    CsvTable nodes(columns);
+    for (std::size_t i = 0; i < fields.points.size(); ++i)
+      {
+        const Vector3d             &x   = fields.points[i];
+        std::vector<CsvTable::Cell> row = {static_cast<long>(i), x[0], x[1], x[2], start[i][0], start[i][1]};
+        for (const auto &[name, values] : fields.node_scalars)
+          row.emplace_back(values[i]);
+        nodes.add_row(row);
+      }
+    nodes.save(folder / "nodes_final.csv");
+
+    columns = {"element", "n1", "n2", "n3", "major_strain", "minor_strain", "thickness_mm", "eps_p"};
+    if (limit)
+      columns.push_back("flc_margin");
+    CsvTable   elements(columns);
+    const auto results = simulation.shell().element_results();
+    for (std::size_t e = 0; e < fields.triangles.size(); ++e)
+      {
+        const auto                 &t   = fields.triangles[e];
+        std::vector<CsvTable::Cell> row = {static_cast<long>(e), static_cast<long>(t[0]), static_cast<long>(t[1]), static_cast<long>(t[2]),
+                                           results.major_strain[e], results.minor_strain[e], results.thickness[e], results.eps_p[e]};
+        if (limit)
+          row.emplace_back(fields.cell_scalars.at("flc_margin")[e]);
+        elements.add_row(row);
+      }
+    elements.save(folder / "elements_final.csv");
+    if (!limit)
+      return;
+    CsvTable curve({"minor_strain", "major_strain"});
+    for (int i = -50; i <= 50; ++i)
+      curve.add_row({0.01 * i, limit->limit(0.01 * i)});
+    curve.save(folder / "flc.csv");
+  }
+
+  void
+  FieldWriter::save(Archive &archive) const
+  {
+    std::vector<double> values = {next_travel, static_cast<double>(step), previous_time, last_written};
+    for (const auto &x : previous_position)
+      values.insert(values.end(), {x[0], x[1], x[2]});
+    archive.put("output/fields", values);
+  }
+
+  void
+  FieldWriter::load(const Archive &archive)
+  {
+    const auto &values = archive.numbers("output/fields");
+    next_travel        = values[0];
+    step               = static_cast<unsigned>(values[1]);
+    previous_time      = values[2];
+    last_written       = values[3];
+    previous_position.clear();
+    for (std::size_t i = 4; i + 2 < values.size(); i += 3)
+      previous_position.emplace_back(values[i], values[i + 1], values[i + 2]);
+    collection = PvdCollection::load(folder / "solution.pvd");
+    collection.truncate(last_written);
+  }
+} // namespace tribodraw
