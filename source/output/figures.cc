@@ -1,0 +1,167 @@
+#include <tribodraw/base/csv.h>
+#include <tribodraw/output/figures.h>
+#include <tribodraw/output/plot.h>
+#include <tribodraw/surface/surface_reader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+namespace tribodraw::figures
+{
+  namespace
+  {
+    using Style = plot::Series::Style;
+
+    /// Values of @p keys without repetition, at most @p n of them, evenly chosen with first and last.
+    std::vector<double>
+    choose_levels(const std::vector<double> &keys, const std::size_t n)
+    {
+      const std::set<double>    all(keys.begin(), keys.end());
+      const std::vector<double> sorted(all.begin(), all.end());
+      if (sorted.size() <= n)
+        return sorted;
+      std::vector<double> chosen;
+      for (std::size_t i = 0; i < n; ++i)
+        chosen.push_back(sorted[i * (sorted.size() - 1) / (n - 1)]);
+      return chosen;
+    }
+
+    std::string
+    short_number(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3g", value);
+      return text;
+    }
+
+    /// The map in um, averaged over squares of pixels if it has more than a picture can show.
+    void
+    draw_heights(const HeightMap &map, const std::filesystem::path &stem)
+    {
+      constexpr std::size_t largest = 1000;
+      const std::size_t     step    = (std::max(map.nx, map.ny) + largest - 1) / largest;
+      plot::MapChart        chart;
+      chart.title       = "Surface heights";
+      chart.x_label     = "x / mm";
+      chart.y_label     = "y / mm";
+      chart.value_label = "Height / µm";
+      plot::Raster &r   = chart.raster;
+      r.nx              = map.nx / step;
+      r.ny              = map.ny / step;
+      r.x_min = r.y_min   = 0;
+      r.x_max             = static_cast<double>(r.nx * step) * map.dx;
+      r.y_max             = static_cast<double>(r.ny * step) * map.dy;
+      constexpr double um = 1e-3;
+      for (std::size_t iy = 0; iy < r.ny; ++iy)
+        for (std::size_t ix = 0; ix < r.nx; ++ix)
+          {
+            double sum = 0;
+            for (std::size_t k = 0; k < step * step; ++k)
+              sum += map(ix * step + k % step, iy * step + k / step);
+            r.value.push_back(sum / static_cast<double>(step * step) / um);
+          }
+      plot::draw(chart, stem);
+    }
+  } // namespace
+
+  void
+  draw_surface(const std::filesystem::path &folder)
+  {
+    if (const auto file = folder / "surface.gsf"; std::filesystem::exists(file))
+      draw_heights(read_surface_file(file), folder / "surface_map");
+    if (const auto file = folder / "height_distribution.csv"; std::filesystem::exists(file))
+      {
+        const CsvData   data = read_csv(file);
+        plot::LineChart chart{ "Height distribution", "Height / µm", "Probability density / (1/µm)" };
+        chart.y_from_zero = true;
+        chart.series      = { { "", data.numbers("height_um"), data.numbers("density_per_um"), Style::line } };
+        plot::draw(chart, folder / "height_distribution");
+      }
+    if (const auto file = folder / "abbott_curve.csv"; std::filesystem::exists(file))
+      {
+        const CsvData       data  = read_csv(file);
+        std::vector<double> share = data.numbers("material_ratio");
+        for (double &v : share)
+          v *= 100;
+        plot::LineChart chart{ "Abbott curve", "Share of the area above the height / %", "Height / µm" };
+        chart.series = { { "", share, data.numbers("height_um"), Style::line } };
+        plot::draw(chart, folder / "abbott_curve");
+      }
+  }
+
+  void
+  draw_flow_factors(const std::filesystem::path &folder)
+  {
+    const auto file = folder / "flow_factors.csv";
+    if (!std::filesystem::exists(file))
+      return;
+    const CsvData data       = read_csv(file);
+    const auto    separation = data.numbers("h_avg_over_sq");
+    const auto    chart      = [&](const std::string &title, const std::string &symbol, const std::string &column) {
+      plot::LineChart c{ title, "Mean gap / Sq", "Flow factor" };
+      for (const char *component : { "xx", "yy", "xy", "yx" })
+        {
+          const bool diagonal = component[0] == component[1];
+          c.series.push_back({ symbol + component, separation, data.numbers(column + component),
+                               diagonal ? Style::line_with_points : Style::dashed_line });
+        }
+      return c;
+    };
+    plot::draw(chart("Pressure flow factor", "ΦP ", "phi_p_"), folder / "phi_p");
+    plot::draw(chart("Shear flow factor", "ΦS ", "phi_s_"), folder / "phi_s");
+  }
+
+  void
+  draw_friction_table(const std::filesystem::path &folder)
+  {
+    const auto file = folder / "friction_table.csv";
+    if (!std::filesystem::exists(file))
+      return;
+    const CsvData data     = read_csv(file);
+    const auto    pressure = data.numbers("p_solid_mpa"), strain = data.numbers("eps_p");
+    const auto    family = [&](const std::string &title, const std::string &label, const std::string &column) {
+      plot::LineChart c{ title, "Solid pressure / MPa", label };
+      c.logarithmic_x   = true;
+      c.y_from_zero     = true;
+      const auto values = data.numbers(column);
+      for (const double level : choose_levels(strain, 6))
+        {
+          plot::Series series{ "plastic strain " + short_number(level), {}, {}, Style::line };
+          for (std::size_t i = 0; i < values.size(); ++i)
+            if (strain[i] == level)
+              {
+                series.x.push_back(pressure[i]);
+                series.y.push_back(values[i]);
+              }
+          c.series.push_back(series);
+        }
+      return c;
+    };
+    plot::draw(family("Real contact fraction", "Contact fraction", "contact_fraction"),
+               folder / "table_contact_fraction");
+    plot::draw(family("Mean film in the gap", "Film thickness / µm", "h_avg_um"), folder / "table_film_thickness");
+    plot::draw(family("Shear stress of the solid contacts", "Shear stress / MPa", "tau_solid_mpa"),
+               folder / "table_solid_shear");
+    plot::draw(family("Boundary friction coefficient", "Friction coefficient", "mu_boundary"),
+               folder / "table_friction_coefficient");
+  }
+
+  void
+  draw_forming(const std::filesystem::path &folder)
+  {
+    draw_history(folder);
+    draw_maps(folder);
+    draw_forming_limits(folder);
+  }
+
+  void
+  draw_all(const std::filesystem::path &folder)
+  {
+    draw_surface(folder);
+    draw_flow_factors(folder);
+    draw_friction_table(folder);
+    draw_forming(folder);
+  }
+} // namespace tribodraw::figures
