@@ -186,11 +186,16 @@ TEST(HardeningLawContract, slopes_are_derivatives)
                       f.strain_slope, 1e-6 * std::max(f.strain_slope, f.value))
               << name;
           if (rate > 0)
-            EXPECT_NEAR((law->flow_stress(strain, rate + k).value - law->flow_stress(strain, rate - k).value) / (2 * k),
-                        f.rate_slope, 1e-6 * std::max(f.rate_slope, f.value))
-                << name;
+            {
+              EXPECT_NEAR((law->flow_stress(strain, rate + k).value - law->flow_stress(strain, rate - k).value)
+                              / (2 * k),
+                          f.rate_slope, 1e-6 * std::max(f.rate_slope, f.value))
+                  << name;
+            }
           else
-            EXPECT_EQ(f.rate_slope, 0.) << name; // nothing to differentiate at rest
+            {
+              EXPECT_EQ(f.rate_slope, 0.) << name; // nothing to differentiate at rest
+            }
         }
 }
 

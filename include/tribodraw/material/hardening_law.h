@@ -11,12 +11,16 @@ namespace tribodraw
   public:
     struct FlowStress
     {
-      double value;          ///< [MPa]
-      double strain_slope;   ///< d value / d strain [MPa]
-      double rate_slope;     ///< d value / d rate [MPa s]
+      double value;        ///< [MPa]
+      double strain_slope; ///< d value / d strain [MPa]
+      double rate_slope;   ///< d value / d rate [MPa s]
     };
     virtual ~HardeningLaw() = default;
-    static const char *kind() { return "hardening law"; }
+    static const char *
+    kind()
+    {
+      return "hardening law";
+    }
     /// @param strain equivalent plastic strain >= 0; @param rate its rate [1/s] >= 0
     virtual FlowStress flow_stress(double strain, double rate) const = 0;
   };

@@ -16,7 +16,11 @@ namespace tribodraw
   {
   public:
     virtual ~YieldLocus() = default;
-    static const char *kind() { return "yield locus"; }
+    static const char *
+    kind()
+    {
+      return "yield locus";
+    }
     /// Equivalent stress of @p stress [MPa].
     virtual double equivalent_stress(const Vector3 &stress) const = 0;
     /// Equivalent stress, its gradient (conjugate to engineering strain components; degree 0)

@@ -1,0 +1,446 @@
+#include <tribodraw/base/parameters.h>
+#include <tribodraw/material/yield_locus.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tribodraw
+{
+  namespace
+  {
+    /// A function of the direction of the stress, written in c = cos 2 theta (theta: angle between rolling direction
+    /// and major principal stress): a0 + a1 cos 2 theta + a2 cos 4 theta through the values at 0, 45 and 90 degrees.
+    struct Cosines
+    {
+      double k0 = 0, k1 = 0, k2 = 0; ///< k0 + k1 c + k2 c^2
+
+      static Cosines
+      through(const double f0, const double f45, const double f90)
+      {
+        return { f45, 0.5 * (f0 - f90), 0.5 * (f0 - 2 * f45 + f90) };
+      }
+      double
+      value(const double c) const
+      {
+        return k0 + c * (k1 + c * k2);
+      }
+      double
+      slope(const double c) const
+      {
+        return k1 + 2 * c * k2;
+      }
+      double
+      curvature() const
+      {
+        return 2 * k2;
+      }
+    };
+
+    /// Value with first and second derivative with respect to c.
+    struct Jet
+    {
+      double v = 0, d = 0, dd = 0;
+
+      Jet() = default;
+      Jet(const double value, const double slope, const double curvature) : v(value), d(slope), dd(curvature) {}
+      Jet(const Cosines &f, const double c) : v(f.value(c)), d(f.slope(c)), dd(f.curvature()) {}
+      Jet
+      operator+(const Jet &o) const
+      {
+        return { v + o.v, d + o.d, dd + o.dd };
+      }
+      Jet
+      operator-(const Jet &o) const
+      {
+        return { v - o.v, d - o.d, dd - o.dd };
+      }
+      Jet
+      operator*(const Jet &o) const
+      {
+        return { v * o.v, d * o.v + v * o.d, dd * o.v + 2 * d * o.d + v * o.dd };
+      }
+      Jet
+      operator*(const double a) const
+      {
+        return { a * v, a * d, a * dd };
+      }
+      Jet
+      operator/(const Jet &o) const
+      {
+        const double q = v / o.v, qd = (d - q * o.d) / o.v;
+        return { q, qd, (dd - 2 * qd * o.d - q * o.dd) / o.v };
+      }
+    };
+
+    /// A point of the locus at unit flow stress in the coordinates mean m = (s1+s2)/2 and radius R = (s1-s2)/2 of
+    /// Mohr's circle; they make the equibiaxial state (R = 0) free of cancellation.
+    template <class Number>
+    struct Point
+    {
+      Number m, R;
+    };
+
+    Point<double>
+    from_principal(const double s1, const double s2)
+    {
+      return { 0.5 * (s1 + s2), 0.5 * (s1 - s2) };
+    }
+
+    Point<Cosines>
+    through(const Point<double> &p0, const Point<double> &p45, const Point<double> &p90)
+    {
+      return { Cosines::through(p0.m, p45.m, p90.m), Cosines::through(p0.R, p45.R, p90.R) };
+    }
+
+    /// A Bezier curve of second order between two neighbouring reference points. The hinge point is
+    /// base + (numerator/denominator) tangent, all functions of c.
+    struct Sector
+    {
+      Point<Cosines> far;  ///< end with the larger R/m
+      Point<Cosines> near; ///< end with the smaller R/m
+      Point<Cosines> base, tangent;
+      Cosines        numerator, denominator;
+    };
+
+    /// Vegter's plane-stress yield locus: Bezier curves through measured points (pure shear SH, uniaxial UN, plane
+    /// strain PS, equibiaxial BI) with measured normals at 0, 45 and 90 degrees to the rolling direction.
+    ///
+    /// Construction at one angle (H. Vegter and A. H. van den Boogaard 2006): reference points in principal stresses
+    ///   SH (f_sh(th), -f_sh(90-th)), normal (1,-1);   UN (f_un, 0), normal (1, -R/(1+R));
+    ///   PS (f_ps, f_ps2), normal (1, 0);              BI (f_bi, f_bi), normal (1, rho(th));
+    /// hinge points are the intersections of neighbouring tangents, and f_ps2 lies at the plane strain ratio between
+    /// the hinge points on its sides.
+    ///
+    /// Between the test angles every reference point is interpolated with cosines. For the hinge points there are two
+    /// ways: `tangent` interpolates the tangent direction in UN, takes the exact rho(th) in BI and intersects again, so
+    /// the gradient is continuous at every angle; `interpolated` interpolates the coordinates of the hinge points like
+    /// those of the others, as other programs do: then the gradient jumps in UN and BI off the test angles (up to 0.003
+    /// rad with the data of DC04, on some sides against convexity). At 0, 45 and 90 degrees both are the same.
+    class Vegter : public YieldLocus
+    {
+    public:
+      explicit Vegter(Parameters &parameters);
+      double equivalent_stress(const Vector3 &stress) const override;
+      double evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const override;
+
+    private:
+      struct Data
+      {
+        std::vector<double> R, uniaxial, plane_strain, plane_strain_ratio, shear;
+        double              equibiaxial, rho;
+        bool                tangent_hinges;
+      };
+      /// The stress after use of the symmetry e(-s) = e(s): mean, radius, cos and sin of 2 theta.
+      struct State
+      {
+        double        m, R, c, q;
+        double        sign;        ///< -1 if the stress was reversed
+        double        apex_weight; ///< 1, or R/(apex_radius |m|) if R was raised to apex_radius |m|
+        const Sector *sector;
+      };
+
+      static Data read(Parameters &parameters);
+      static bool complete(Parameters &parameters, Data &data);
+      void        construct(const Data &data);
+      void        check_convexity(Parameters &parameters) const;
+      State       locate(const Vector3 &stress) const;
+
+      Sector shear_uniaxial, uniaxial_plane_strain, plane_strain_equibiaxial;
+
+      Vector3 equibiaxial_gradient;
+
+      /// Closer to the equibiaxial state than this fraction of the mean stress the gradient is interpolated linearly
+      /// between that state and this radius, and the second derivative, whose limit depends on the direction of
+      /// approach, is that at this radius. 1e-7 balances round-off (1e-16/1e-7) against the error of the interpolation
+      /// (1e-7 squared).
+      static constexpr double apex_radius = 1e-7;
+    };
+
+    Vegter::Vegter(Parameters &parameters)
+    {
+      Data data = read(parameters);
+      if (!complete(parameters, data) || parameters.documentation_mode())
+        return;
+      construct(data);
+      check_convexity(parameters);
+    }
+
+    Vegter::Data
+    Vegter::read(Parameters &parameters)
+    {
+      const Range factor = Range::positive().usual(0.3, 2.);
+      Data        data;
+      data.R        = parameters.quantity_list("R values", "", Range::positive().usual(0.2, 5.),
+                                               "R-values at 0, 45, 90 degrees to the rolling direction.");
+      data.uniaxial = parameters.quantity_list(
+          "Uniaxial factors", "", factor,
+          "Uniaxial yield stress at 0, 45, 90 degrees over that at 0 degrees (the first is 1).");
+      data.plane_strain       = parameters.quantity_list("Plane strain factors", "", factor,
+                                                         "Major stress in plane strain tension at 0, 45, 90 degrees.");
+      data.plane_strain_ratio = parameters.quantity_list(
+          "Plane strain ratios", "", Range::between(0., 1.),
+          "Place of the plane strain point between its two hinge points at 0, 45, 90 degrees "
+          "(0: uniaxial side, 1: equibiaxial side).");
+      data.shear
+          = parameters.quantity_list("Shear factors", "", factor, "Major stress in pure shear at 0, 45, 90 degrees.");
+      data.equibiaxial = parameters.quantity("Equibiaxial factor", "", factor, "Stress in equibiaxial tension.");
+      data.rho         = parameters.quantity("Equibiaxial ratio", "", Range::positive().usual(0.3, 3.),
+                                             "Strain across over strain along the rolling direction in equibiaxial tension.");
+      data.tangent_hinges
+          = parameters.choice(
+                "Hinge points", { "tangent", "interpolated" },
+                "Hinge points between the test angles: intersection of the tangents there, or interpolated "
+                "coordinates (has small kinks; for comparison with other programs).",
+                Default{ "tangent", "The gradient is continuous, which the stress update relies on." })
+            != "interpolated";
+      return data;
+    }
+
+    // True if the lists have three numbers each and the first uniaxial factor is one.
+    bool
+    Vegter::complete(Parameters &parameters, Data &data)
+    {
+      bool       good  = true;
+      const auto check = [&](const char *entry, const std::vector<double> &list) {
+        if (list.size() == 3)
+          return;
+        good = false;
+        if (!list.empty() && !parameters.documentation_mode())
+          parameters.problem(entry, std::to_string(list.size()) + " numbers were given",
+                             "3 numbers, for 0, 45 and 90 degrees to the rolling direction");
+      };
+      check("R values", data.R);
+      check("Uniaxial factors", data.uniaxial);
+      check("Plane strain factors", data.plane_strain);
+      check("Plane strain ratios", data.plane_strain_ratio);
+      check("Shear factors", data.shear);
+      if (good && !parameters.documentation_mode() && std::abs(data.uniaxial[0] - 1) > 1e-12)
+        parameters.problem("Uniaxial factors", "the first factor is " + std::to_string(data.uniaxial[0]),
+                           "1, because the flow stress is that of the rolling direction",
+                           "Divide all factors by the first.");
+      return good && data.equibiaxial > 0 && data.rho > 0;
+    }
+
+    void
+    Vegter::construct(const Data &data)
+    {
+      std::array<Point<double>, 3> SH, UN, PS, BI, hinge_su, hinge_up, hinge_pb;
+      for (int j = 0; j < 3; ++j)
+        {
+          const double cosine = 1. - j;
+          const double rho    = ((data.rho + 1) + (data.rho - 1) * cosine) / ((data.rho + 1) - (data.rho - 1) * cosine);
+          const double f_ps = data.plane_strain[j], f_un = data.uniaxial[j], f_bi = data.equibiaxial;
+          const double sh1 = data.shear[j], sh2 = -data.shear[2 - j];
+          // The tangent in UN runs along (R, 1+R), that in SH along (1,1), that in PS along (0,1), that in BI along
+          // (rho,-1).
+          const double R      = data.R[j];
+          const double lambda = (sh1 - f_un) - sh2; // UN + lambda (R,1+R) = SH + k (1,1) gives -lambda
+          const double mu     = (f_ps - f_un) / R;
+          const double up2    = mu * (1 + R);
+          const double pb2    = f_bi - (f_ps - f_bi) / rho;
+          SH[j]               = from_principal(sh1, sh2);
+          UN[j]               = from_principal(f_un, 0);
+          PS[j]               = from_principal(f_ps, up2 + data.plane_strain_ratio[j] * (pb2 - up2));
+          BI[j]               = from_principal(f_bi, f_bi);
+          hinge_su[j]         = from_principal(f_un - lambda * R, -lambda * (1 + R));
+          hinge_up[j]         = from_principal(f_ps, up2);
+          hinge_pb[j]         = from_principal(f_ps, pb2);
+        }
+      equibiaxial_gradient = Vector3(1, data.rho, 0) / ((1 + data.rho) * data.equibiaxial);
+      const auto sh = through(SH[0], SH[1], SH[2]), un = through(UN[0], UN[1], UN[2]),
+                 ps = through(PS[0], PS[1], PS[2]), bi = through(BI[0], BI[1], BI[2]);
+      const auto su  = through(hinge_su[0], hinge_su[1], hinge_su[2]);
+      const auto up  = through(hinge_up[0], hinge_up[1], hinge_up[2]);
+      const auto pb  = through(hinge_pb[0], hinge_pb[1], hinge_pb[2]);
+      const auto sum = [](const Cosines &a, const Cosines &b, const double s) {
+        return Cosines{ a.k0 + s * b.k0, a.k1 + s * b.k1, a.k2 + s * b.k2 };
+      };
+      const Cosines zero{}, one{ 1, 0, 0 };
+      shear_uniaxial           = { sh, un, su, { zero, zero }, zero, one };
+      uniaxial_plane_strain    = { un, ps, up, { zero, zero }, zero, one };
+      plane_strain_equibiaxial = { ps, bi, pb, { zero, zero }, zero, one };
+      if (!data.tangent_hinges)
+        return;
+      // At the test angles UN lies between its two hinge points on the tangent, so their difference has its direction.
+      const Point<Cosines> tangent{ sum(up.m, su.m, -1), sum(up.R, su.R, -1) };
+      // The tangent in SH keeps R, that in PS keeps m + R.
+      shear_uniaxial = { sh, un, un, tangent, sum(sh.R, un.R, -1), tangent.R };
+      uniaxial_plane_strain
+          = { un, ps, un, tangent, sum(sum(ps.m, ps.R, 1), sum(un.m, un.R, 1), -1), sum(tangent.m, tangent.R, 1) };
+      // The tangent in BI has the direction ((rho-1) c, rho+1) in (m,R) at every angle.
+      const double         k0 = data.rho + 1, k1 = data.rho - 1;
+      const Point<Cosines> apex_tangent{ { 0, k1, 0 }, { k0, 0, 0 } };
+      plane_strain_equibiaxial = { ps, bi, bi, apex_tangent, sum(sum(ps.m, ps.R, 1), bi.m, -1), { k0, k1, 0 } };
+    }
+
+    // Scan of the eigenvalues of the second derivative over all stress directions. Real data have none below -1e-3
+    // (times 1/stress); wrong data (a factor mistyped) have them of order one.
+    void
+    Vegter::check_convexity(Parameters &parameters) const
+    {
+      const double tolerance = -0.02;
+      const int    n_angles = 19, n_ratios = 48;
+      for (int i = 0; i < n_angles; ++i)
+        for (int j = 0; j < n_ratios; ++j)
+          {
+            const double  theta = M_PI / 2 * i / (n_angles - 1), phi = M_PI * (j + 0.37) / n_ratios;
+            const double  m = std::cos(phi), R = std::sin(phi);
+            Vector3       n;
+            Matrix3       H;
+            const Vector3 s(m + R * std::cos(2 * theta), m - R * std::cos(2 * theta), R * std::sin(2 * theta));
+            const double  e = evaluate(s, n, H);
+            // The smaller eigenvalue of the part across s; e H has no dimension.
+            const double trace  = H.trace();
+            const double minors = H(0, 0) * H(1, 1) - H(0, 1) * H(0, 1) + H(1, 1) * H(2, 2) - H(1, 2) * H(1, 2)
+                                  + H(0, 0) * H(2, 2) - H(0, 2) * H(0, 2);
+            const double smallest = 0.5 * (trace - std::sqrt(std::max(0., trace * trace - 4 * minors)));
+            if (!(e > 0) || !(e * smallest > tolerance))
+              {
+                parameters.problem("",
+                                   "the yield locus is not convex (major stress at "
+                                       + std::to_string(theta * 180 / M_PI) + " degrees)",
+                                   "factors that make a convex locus, as measured ones do",
+                                   "Compare the entries with the data sheet; a mistyped factor is the usual cause.");
+                return;
+              }
+          }
+    }
+
+    inline Vegter::State
+    Vegter::locate(const Vector3 &stress) const
+    {
+      State        s;
+      const double a = 0.5 * (stress[0] - stress[1]), b = stress[2];
+      s.m                = 0.5 * (stress[0] + stress[1]);
+      s.R                = std::sqrt(a * a + b * b);
+      s.c                = s.R > 0 ? a / s.R : 1.;
+      s.q                = s.R > 0 ? b / s.R : 0.;
+      const double R_min = apex_radius * std::abs(s.m);
+      s.apex_weight      = 1;
+      if (s.R < R_min)
+        {
+          s.apex_weight = s.R / R_min;
+          s.R           = R_min;
+        }
+      s.sign          = 1;
+      const Sector &S = shear_uniaxial, &P = uniaxial_plane_strain;
+      if (s.m * S.far.R.value(s.c) < s.R * S.far.m.value(s.c)) // beyond SH
+        {
+          s.m    = -s.m;
+          s.c    = -s.c;
+          s.q    = -s.q;
+          s.sign = -1;
+        }
+      if (s.m < s.R)
+        s.sector = &S;
+      else if (s.m * P.near.R.value(s.c) < s.R * P.near.m.value(s.c))
+        s.sector = &P;
+      else
+        s.sector = &plane_strain_equibiaxial;
+      return s;
+    }
+
+    /// Place t in [0,1] (0: near end) where the ray (m,R) meets the curve near + t l1 + t^2 l2: the cross product
+    /// v0 + v1 t + v2 t^2 of ray and curve is not positive at t = 0, not negative at t = 1 and rises through its root.
+    inline double
+    intersection(const double v0, const double v1, const double v2)
+    {
+      const double root = std::sqrt(std::max(0., v1 * v1 - 4 * v0 * v2));
+      const double sum  = v1 + root;
+      return sum > 0 ? std::min(1., std::max(0., -2 * v0 / sum)) : 0.;
+    }
+
+    double
+    Vegter::equivalent_stress(const Vector3 &stress) const
+    {
+      if (stress[0] == 0 && stress[1] == 0 && stress[2] == 0)
+        return 0;
+      const State s = locate(stress);
+      if (s.apex_weight < 1)
+        {
+          Vector3 n;
+          Matrix3 H;
+          return evaluate(stress, n, H);
+        }
+      const Sector &S      = *s.sector;
+      const double  factor = S.numerator.value(s.c) / S.denominator.value(s.c);
+      const double  near_m = S.near.m.value(s.c), near_R = S.near.R.value(s.c);
+      const double  hinge_m = S.base.m.value(s.c) + factor * S.tangent.m.value(s.c) - near_m;
+      const double  hinge_R = S.base.R.value(s.c) + factor * S.tangent.R.value(s.c) - near_R;
+      const double  l1_m = 2 * hinge_m, l1_R = 2 * hinge_R;
+      const double  l2_m = S.far.m.value(s.c) - near_m - l1_m, l2_R = S.far.R.value(s.c) - near_R - l1_R;
+      const double  t = intersection(s.m * near_R - s.R * near_m, s.m * l1_R - s.R * l1_m, s.m * l2_R - s.R * l2_m);
+      return (s.m + s.R) / (near_m + near_R + t * (l1_m + l1_R + t * (l2_m + l2_R)));
+    }
+
+    double
+    Vegter::evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const
+    {
+      const State   s = locate(stress);
+      const double  c = s.c, q = s.q, R = s.R;
+      const Sector &S = *s.sector;
+
+      // The Bezier curve G(t, c) = near + t l1 + t^2 l2 in (m,R).
+      const Jet    factor = Jet(S.numerator, c) / Jet(S.denominator, c);
+      const Jet    near_m(S.near.m, c), near_R(S.near.R, c);
+      const Jet    l1_m = (Jet(S.base.m, c) + factor * Jet(S.tangent.m, c) - near_m) * 2;
+      const Jet    l1_R = (Jet(S.base.R, c) + factor * Jet(S.tangent.R, c) - near_R) * 2;
+      const Jet    l2_m = Jet(S.far.m, c) - near_m - l1_m, l2_R = Jet(S.far.R, c) - near_R - l1_R;
+      const double t
+          = intersection(s.m * near_R.v - R * near_m.v, s.m * l1_R.v - R * l1_m.v, s.m * l2_R.v - R * l2_m.v);
+      const Jet    Gm = near_m + (l1_m + l2_m * t) * t, GR = near_R + (l1_R + l2_R * t) * t;
+      const double Gm_t = l1_m.v + 2 * t * l2_m.v, GR_t = l1_R.v + 2 * t * l2_R.v;
+      const double Gm_tc = l1_m.d + 2 * t * l2_m.d, GR_tc = l1_R.d + 2 * t * l2_R.d;
+      const double e = (s.m + R) / (Gm.v + GR.v);
+
+      // Derivatives of e(m, R, c), which is homogeneous in (m,R): the gradient is normal to G_t with g.G = 1.
+      const double D   = Gm.v * GR_t - GR.v * Gm_t;
+      const double iD  = 1 / D;
+      const double e_m = GR_t * iD, e_R = -Gm_t * iD;
+      const double g_Gc = e_m * Gm.d + e_R * GR.d;
+      const double e_c  = -e * g_Gc;
+      const double K    = 2 * (Gm_t * l2_R.v - GR_t * l2_m.v) * iD * iD; // curvature of the curve, over D^2
+      const double k    = K * iD / e;
+      const double e_mm = k * GR.v * GR.v, e_mR = -k * GR.v * Gm.v, e_RR = k * Gm.v * Gm.v;
+      const double t_c  = -(Gm.v * GR.d - GR.v * Gm.d) * iD;
+      const double D_c  = (Gm.d * GR_t + Gm.v * GR_tc - GR.d * Gm_t - GR.v * Gm_tc) * iD;
+      const double e_mc = GR_tc * iD - e_m * D_c - GR.v * K * t_c;
+      const double e_Rc = -Gm_tc * iD - e_R * D_c + Gm.v * K * t_c;
+      const double e_cc
+          = -e_c * g_Gc - e * (e_mc * Gm.d + e_Rc * GR.d + e_m * (Gm.dd + Gm_tc * t_c) + e_R * (GR.dd + GR_tc * t_c));
+
+      // Polar coordinates (R, 2 theta) of a = (sxx-syy)/2 and b = sxy: radial (r) and tangential (t) components.
+      const double iR   = 1 / R;
+      const double h_mt = -q * e_mc * iR, h_rt = -q * (e_Rc - e_c * iR) * iR;
+      const double h_tt = ((q * q * e_cc - c * e_c) * iR + e_R) * iR;
+      const double ec_R = e_c * q * iR;
+      const double n_a = e_R * c + ec_R * q, n_b = e_R * q - ec_R * c;
+      const double h_ma = e_mR * c - h_mt * q, h_mb = e_mR * q + h_mt * c;
+      const double h_aa = e_RR * c * c - 2 * h_rt * c * q + h_tt * q * q;
+      const double h_bb = e_RR * q * q + 2 * h_rt * c * q + h_tt * c * c;
+      const double h_ab = (e_RR - h_tt) * c * q + h_rt * (c * c - q * q);
+
+      gradient[0]   = 0.5 * s.sign * (e_m + n_a);
+      gradient[1]   = 0.5 * s.sign * (e_m - n_a);
+      gradient[2]   = s.sign * n_b;
+      hessian(0, 0) = 0.25 * (e_mm + h_aa) + 0.5 * h_ma;
+      hessian(1, 1) = 0.25 * (e_mm + h_aa) - 0.5 * h_ma;
+      hessian(0, 1) = hessian(1, 0) = 0.25 * (e_mm - h_aa);
+      hessian(0, 2) = hessian(2, 0) = 0.5 * (h_mb + h_ab);
+      hessian(1, 2) = hessian(2, 1) = 0.5 * (h_mb - h_ab);
+      hessian(2, 2)                 = h_bb;
+      if (s.apex_weight == 1)
+        return e;
+      gradient = s.sign * (1 - s.apex_weight) * equibiaxial_gradient + s.apex_weight * gradient;
+      return gradient.dot(stress); // Euler: e = n.s
+    }
+  } // namespace
+
+  TRIBODRAW_REGISTER(YieldLocus, Vegter, "Vegter",
+                     "Bezier interpolation of measured yield points and normals (shear, uniaxial, plane strain, "
+                     "equibiaxial) at 0, 45 and 90 degrees.",
+                     "H. Vegter, A. H. van den Boogaard, Int. J. Plasticity 22 (2006) 557-580")
+} // namespace tribodraw
