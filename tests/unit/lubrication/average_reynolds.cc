@@ -645,7 +645,7 @@ TEST(AverageReynolds, FastOnABlankOfTheCrossDie)
       const auto          start      = std::clock();
       for (int i = 0; i < n_solves; ++i)
         {
-          positions[100][2] = 1e-3 * i;
+          positions[100][2] = 1e-3 * i; // new geometry in each
           auto result       = reynolds.solve(positions, nodes, last);
           iterations += result.iterations;
           if (std::strstr(what, "started"))

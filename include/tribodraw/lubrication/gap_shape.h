@@ -1,0 +1,32 @@
+#ifndef tribodraw_lubrication_gap_shape_h
+#define tribodraw_lubrication_gap_shape_h
+
+#include <vector>
+
+namespace tribodraw
+{
+  /// A prescribed gap over the rectangle [0, length] x [0, width] of a flat lower surface: bearings and test cases.
+  class GapShape
+  {
+  public:
+    virtual ~GapShape() = default;
+    static const char *
+    kind()
+    {
+      return "gap shape";
+    }
+
+    virtual double length() const = 0; ///< along x, the direction of sliding [mm]
+    virtual double width() const  = 0; ///< along y [mm]
+    /// Distance of the surfaces [mm].
+    virtual double gap(double x, double y) const = 0;
+    /// Positions x at which the gap jumps; the mesh gets a line of elements of negligible width there.
+    virtual std::vector<double>
+    jumps() const
+    {
+      return {};
+    }
+  };
+} // namespace tribodraw
+
+#endif
