@@ -5,6 +5,8 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -129,9 +131,6 @@ namespace tribodraw
       icntl(mumps, 14) = 60; // spare memory in per cent, for delayed pivots
       icntl(mumps, 18) = collective ? 3 : 0;
       icntl(mumps, 24) = 1; // report null pivots instead of dividing by round-off
-      // A pivot below this share of the (scaled) matrix norm is round-off: elimination of n unknowns
-      // leaves some 1e-16 of a vanishing pivot.
-      mumps.cntl[2] = 1e-15;
     }
 
     static void
@@ -161,6 +160,9 @@ namespace tribodraw
             }
       values.resize(positions.size());
       mumps.n = matrix.size();
+      // A pivot below this share of the (scaled) matrix norm is round-off of a vanishing one: n eliminations leave some
+      // sqrt(n) times the machine precision.
+      mumps.cntl[2] = 20 * std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(matrix.size()));
       if (collective)
         {
           mumps.nnz_loc = static_cast<MUMPS_INT8>(rows.size());

@@ -69,27 +69,6 @@ namespace tribodraw::shell_element
       return bending;
     }
 
-    /// d E_v / d C_v of E = 1/2 ln C, with E_v = (E_11, E_22, 2 E_12) and C_v = (C_11, C_22, C_12).
-    Matrix3
-    logarithmic_strain_derivative(const Vector3 &C)
-    {
-      const double mean = 0.5 * (C[0] + C[1]), half = 0.5 * (C[0] - C[1]);
-      const double radius = std::hypot(half, C[2]);
-      const double l1 = mean + radius, l2 = mean - radius;
-      // Divided difference of 1/2 ln; its series where the eigenvalues meet.
-      const double x     = (l1 - l2) / (l1 + l2);
-      const double theta = x > 1e-4 ? 0.5 * std::log(l1 / l2) / (l1 - l2) : (1 + x * x / 3) / (l1 + l2);
-      const double cos2 = radius > 0 ? half / radius : 1, sin2 = radius > 0 ? C[2] / radius : 0;
-      const double cc = 0.5 * (1 + cos2), ss = 0.5 * (1 - cos2), cs = 0.5 * sin2;
-      Matrix3      to_eigenbasis; // of tensor components with the single off-diagonal one
-      to_eigenbasis << cc, ss, 2 * cs, ss, cc, -2 * cs, -cs, cs, cos2;
-      const Vector3 slopes(0.5 / l1, 0.5 / l2, 2 * theta);
-      // E_12 enters both E_v (twice) and the rotation back, which is the transpose for engineering shears.
-      Matrix3 back;
-      back << cc, ss, -cs, ss, cc, cs, 2 * cs, -2 * cs, cos2;
-      return back * slopes.asDiagonal() * to_eigenbasis;
-    }
-
     /// Membrane forces, moments and moduli of one in-plane point.
     struct SectionResponse
     {
@@ -132,7 +111,7 @@ namespace tribodraw::shell_element
             {
               if (options.elastic_blend > 0 && (point.update.plastic || options.loading_tangent))
                 {
-                  const Matrix3 P = logarithmic_strain_derivative(Cz);
+                  const Matrix3 P = LogarithmicStrain(Cz).derivative();
                   point.tangent.noalias()
                       += options.elastic_blend * P.transpose() * (material.elasticity() - point.update.tangent) * P;
                 }
@@ -218,6 +197,27 @@ namespace tribodraw::shell_element
         }
     }
   } // namespace
+
+  std::array<Eigen::Vector3d, 2>
+  frame_along(const Eigen::Vector3d &axis, const Eigen::Vector3d &director)
+  {
+    const Eigen::Vector3d first = (axis - axis.dot(director) * director).normalized();
+    return { first, director.cross(first) };
+  }
+
+  void
+  turn(Eigen::Vector3d &director, std::array<Eigen::Vector3d, 2> &frame, const double w1, const double w2)
+  {
+    const double angle = std::hypot(w1, w2);
+    if (angle == 0)
+      return;
+    const Eigen::Vector3d along  = (w1 * frame[0] + w2 * frame[1]) / angle;
+    const Eigen::Vector3d turned = std::cos(angle) * along - std::sin(angle) * director;
+    const Eigen::Vector3d first  = frame[0] + frame[0].dot(along) * (turned - along);
+    director                     = (std::cos(angle) * director + std::sin(angle) * along).normalized();
+    // Orthonormal anew: round-off would grow over thousands of turns.
+    frame = frame_along(first, director);
+  }
 
   Reference
   make_reference(const NodeState &nodes)

@@ -12,6 +12,8 @@
 
 namespace tribodraw
 {
+  using shell_element::frame_along;
+
   namespace
   {
     Eigen::Vector3d
@@ -32,13 +34,6 @@ namespace tribodraw
       return normal;
     }
 
-    std::array<Eigen::Vector3d, 2>
-    frame_along(const Eigen::Vector3d &axis, const Eigen::Vector3d &director)
-    {
-      const Eigen::Vector3d first = (axis - axis.dot(director) * director).normalized();
-      return { first, director.cross(first) };
-    }
-
     Shell::Configuration
     undeformed(const BlankMesh &mesh)
     {
@@ -48,22 +43,6 @@ namespace tribodraw
       for (const Eigen::Vector3d &d : c.director)
         c.frame.push_back(frame_along(std::abs(d.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY(), d));
       return c;
-    }
-
-    /// Turn director and frame by the rotation vector d x (w_1 e_1 + w_2 e_2).
-    void
-    turn(Eigen::Vector3d &director, std::array<Eigen::Vector3d, 2> &frame, const double w1, const double w2)
-    {
-      const double angle = std::hypot(w1, w2);
-      if (angle == 0)
-        return;
-      const Eigen::Vector3d along  = (w1 * frame[0] + w2 * frame[1]) / angle; // d moves in this direction
-      const Eigen::Vector3d turned = std::cos(angle) * along - std::sin(angle) * director;
-      for (Eigen::Vector3d &e : frame)
-        e += e.dot(along) * (turned - along);
-      director = (std::cos(angle) * director + std::sin(angle) * along).normalized();
-      // Remove round-off that would grow over thousands of turns.
-      frame = frame_along(frame[0], director);
     }
 
     void
@@ -200,7 +179,7 @@ namespace tribodraw
       {
         for (unsigned k = 0; k < 3; ++k)
           c.position[node][k] += increment[dof(node, k)];
-        turn(c.director[node], c.frame[node], increment[dof(node, 3)], increment[dof(node, 4)]);
+        shell_element::turn(c.director[node], c.frame[node], increment[dof(node, 3)], increment[dof(node, 4)]);
         if (data->frame_axis[node] != Eigen::Vector3d::Zero())
           c.frame[node] = frame_along(data->frame_axis[node], c.director[node]);
       }

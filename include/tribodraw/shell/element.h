@@ -43,6 +43,12 @@ namespace tribodraw::shell_element
     std::array<std::array<Eigen::Vector3d, 2>, n_nodes> frame;
   };
 
+  /// Turn director and frame by the director increments w_1, w_2: d moves by |w| along a great circle in the direction
+  /// w_1 e_1 + w_2 e_2, and the frame with it.
+  void turn(Eigen::Vector3d &director, std::array<Eigen::Vector3d, 2> &frame, double w1, double w2);
+  /// Tangents of a director, e_1 along the projection of @p axis.
+  std::array<Eigen::Vector3d, 2> frame_along(const Eigen::Vector3d &axis, const Eigen::Vector3d &director);
+
   /// What stays constant during the computation.
   struct Reference
   {

@@ -128,6 +128,14 @@ namespace shell_test
       return K;
     }
 
+    /// Internal minus external forces of the trial configuration.
+    Eigen::VectorXd
+    residual(const Eigen::VectorXd &load)
+    {
+      assemble(false);
+      return force - load;
+    }
+
     /// Solution of the linear problem at the trial configuration.
     Eigen::VectorXd
     solve_linear(Eigen::VectorXd load)
@@ -145,17 +153,17 @@ namespace shell_test
       for (unsigned iteration = 0; iteration < 30; ++iteration)
         {
           assemble(true);
-          reaction                 = force - load;
-          Eigen::VectorXd residual = reaction;
-          const bool      moving   = iteration == 0 && jump;
+          reaction                   = force - load;
+          Eigen::VectorXd unbalanced = reaction;
+          const bool      moving     = iteration == 0 && jump;
           if (moving)
-            residual += global_product(*jump);
-          clear_fixed(residual);
-          norms.push_back(residual.norm());
+            unbalanced += global_product(*jump);
+          clear_fixed(unbalanced);
+          norms.push_back(unbalanced.norm());
           if (!moving && norms.back() < tolerance)
             return norms;
           K.eliminate(fixed, parallel::rank() == 0 ? 1. : 0.);
-          Eigen::VectorXd step = solve_eliminated(-residual);
+          Eigen::VectorXd step = solve_eliminated(-unbalanced);
           if (moving)
             step += *jump;
           shell.move(step);
