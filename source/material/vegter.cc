@@ -1,4 +1,6 @@
 #include <tribodraw/base/parameters.h>
+#include <tribodraw/material/cosine_interpolation.h>
+#include <tribodraw/material/mohr_circle.h>
 #include <tribodraw/material/yield_locus.h>
 
 #include <algorithm>
@@ -11,70 +13,6 @@ namespace tribodraw
 {
   namespace
   {
-    /// A function of the direction of the stress, written in c = cos 2 theta (theta: angle between rolling direction
-    /// and major principal stress): a0 + a1 cos 2 theta + a2 cos 4 theta through the values at 0, 45 and 90 degrees.
-    struct Cosines
-    {
-      double k0 = 0, k1 = 0, k2 = 0; ///< k0 + k1 c + k2 c^2
-
-      static Cosines
-      through(const double f0, const double f45, const double f90)
-      {
-        return { f45, 0.5 * (f0 - f90), 0.5 * (f0 - 2 * f45 + f90) };
-      }
-      double
-      value(const double c) const
-      {
-        return k0 + c * (k1 + c * k2);
-      }
-      double
-      slope(const double c) const
-      {
-        return k1 + 2 * c * k2;
-      }
-      double
-      curvature() const
-      {
-        return 2 * k2;
-      }
-    };
-
-    /// Value with first and second derivative with respect to c.
-    struct Jet
-    {
-      double v = 0, d = 0, dd = 0;
-
-      Jet() = default;
-      Jet(const double value, const double slope, const double curvature) : v(value), d(slope), dd(curvature) {}
-      Jet(const Cosines &f, const double c) : v(f.value(c)), d(f.slope(c)), dd(f.curvature()) {}
-      Jet
-      operator+(const Jet &o) const
-      {
-        return { v + o.v, d + o.d, dd + o.dd };
-      }
-      Jet
-      operator-(const Jet &o) const
-      {
-        return { v - o.v, d - o.d, dd - o.dd };
-      }
-      Jet
-      operator*(const Jet &o) const
-      {
-        return { v * o.v, d * o.v + v * o.d, dd * o.v + 2 * d * o.d + v * o.dd };
-      }
-      Jet
-      operator*(const double a) const
-      {
-        return { a * v, a * d, a * dd };
-      }
-      Jet
-      operator/(const Jet &o) const
-      {
-        const double q = v / o.v, qd = (d - q * o.d) / o.v;
-        return { q, qd, (dd - 2 * qd * o.d - q * o.dd) / o.v };
-      }
-    };
-
     /// A point of the locus at unit flow stress in the coordinates mean m = (s1+s2)/2 and radius R = (s1-s2)/2 of
     /// Mohr's circle; they make the equibiaxial state (R = 0) free of cancellation.
     template <class Number>
@@ -142,11 +80,12 @@ namespace tribodraw
         const Sector *sector;
       };
 
-      static Data read(Parameters &parameters);
-      static bool complete(Parameters &parameters, Data &data);
-      void        construct(const Data &data);
-      void        check_convexity(Parameters &parameters) const;
-      State       locate(const Vector3 &stress) const;
+      static Data     read(Parameters &parameters);
+      static bool     complete(Parameters &parameters, Data &data);
+      void            construct(const Data &data);
+      void            check_convexity(Parameters &parameters) const;
+      State           locate(const Vector3 &stress) const;
+      MohrDerivatives derivatives(const State &state) const;
 
       Sector shear_uniaxial, uniaxial_plane_strain, plane_strain_equibiaxial;
 
@@ -193,7 +132,7 @@ namespace tribodraw
           = parameters.choice(
                 "Hinge points", { "tangent", "interpolated" },
                 "Hinge points between the test angles: intersection of the tangents there, or interpolated "
-                "coordinates (has small kinks; for comparison with other programs).",
+                "coordinates, for comparison with other programs; it has small kinks, where some stress updates fail.",
                 Default{ "tangent", "The gradient is continuous, which the stress update relies on." })
             != "interpolated";
       return data;
@@ -276,8 +215,8 @@ namespace tribodraw
       plane_strain_equibiaxial = { ps, bi, bi, apex_tangent, sum(sum(ps.m, ps.R, 1), bi.m, -1), { k0, k1, 0 } };
     }
 
-    // Scan of the eigenvalues of the second derivative over all stress directions. Real data have none below -1e-3
-    // (times 1/stress); wrong data (a factor mistyped) have them of order one.
+    // Scan of the eigenvalues of the second derivative over all stress directions. Measured data have none below zero
+    // but for round-off; a mistyped factor gives values of order one (times 1/stress).
     void
     Vegter::check_convexity(Parameters &parameters) const
     {
@@ -376,64 +315,55 @@ namespace tribodraw
       return (s.m + s.R) / (near_m + near_R + t * (l1_m + l1_R + t * (l2_m + l2_R)));
     }
 
-    double
-    Vegter::evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const
+    // With the Bezier curve G(t, c) in (m,R) and ' = d/dt: (m,R) = e G. At fixed c e is homogeneous in (m,R), its
+    // gradient g normal to G' with g.G = 1; at fixed (m,R) t moves with c so that G stays on the ray.
+    inline MohrDerivatives
+    Vegter::derivatives(const State &s) const
     {
-      const State   s = locate(stress);
-      const double  c = s.c, q = s.q, R = s.R;
+      const double  c = s.c;
       const Sector &S = *s.sector;
-
-      // The Bezier curve G(t, c) = near + t l1 + t^2 l2 in (m,R).
+      // G = near + t l1 + t^2 l2.
       const Jet    factor = Jet(S.numerator, c) / Jet(S.denominator, c);
       const Jet    near_m(S.near.m, c), near_R(S.near.R, c);
       const Jet    l1_m = (Jet(S.base.m, c) + factor * Jet(S.tangent.m, c) - near_m) * 2;
       const Jet    l1_R = (Jet(S.base.R, c) + factor * Jet(S.tangent.R, c) - near_R) * 2;
       const Jet    l2_m = Jet(S.far.m, c) - near_m - l1_m, l2_R = Jet(S.far.R, c) - near_R - l1_R;
       const double t
-          = intersection(s.m * near_R.v - R * near_m.v, s.m * l1_R.v - R * l1_m.v, s.m * l2_R.v - R * l2_m.v);
+          = intersection(s.m * near_R.v - s.R * near_m.v, s.m * l1_R.v - s.R * l1_m.v, s.m * l2_R.v - s.R * l2_m.v);
       const Jet    Gm = near_m + (l1_m + l2_m * t) * t, GR = near_R + (l1_R + l2_R * t) * t;
       const double Gm_t = l1_m.v + 2 * t * l2_m.v, GR_t = l1_R.v + 2 * t * l2_R.v;
       const double Gm_tc = l1_m.d + 2 * t * l2_m.d, GR_tc = l1_R.d + 2 * t * l2_R.d;
-      const double e = (s.m + R) / (Gm.v + GR.v);
 
-      // Derivatives of e(m, R, c), which is homogeneous in (m,R): the gradient is normal to G_t with g.G = 1.
-      const double D   = Gm.v * GR_t - GR.v * Gm_t;
-      const double iD  = 1 / D;
-      const double e_m = GR_t * iD, e_R = -Gm_t * iD;
-      const double g_Gc = e_m * Gm.d + e_R * GR.d;
-      const double e_c  = -e * g_Gc;
-      const double K    = 2 * (Gm_t * l2_R.v - GR_t * l2_m.v) * iD * iD; // curvature of the curve, over D^2
-      const double k    = K * iD / e;
-      const double e_mm = k * GR.v * GR.v, e_mR = -k * GR.v * Gm.v, e_RR = k * Gm.v * Gm.v;
+      const double    iD = 1 / (Gm.v * GR_t - GR.v * Gm_t);
+      MohrDerivatives e;
+      e.e               = (s.m + s.R) / (Gm.v + GR.v);
+      e.m               = GR_t * iD;
+      e.R               = -Gm_t * iD;
+      const double g_Gc = e.m * Gm.d + e.R * GR.d;
+      e.c               = -e.e * g_Gc;
+      const double K    = 2 * (Gm_t * l2_R.v - GR_t * l2_m.v) * iD * iD; // G' x G'' / (G x G')^2
+      const double k    = K * iD / e.e;
+      e.mm              = k * GR.v * GR.v;
+      e.mR              = -k * GR.v * Gm.v;
+      e.RR              = k * Gm.v * Gm.v;
       const double t_c  = -(Gm.v * GR.d - GR.v * Gm.d) * iD;
       const double D_c  = (Gm.d * GR_t + Gm.v * GR_tc - GR.d * Gm_t - GR.v * Gm_tc) * iD;
-      const double e_mc = GR_tc * iD - e_m * D_c - GR.v * K * t_c;
-      const double e_Rc = -Gm_tc * iD - e_R * D_c + Gm.v * K * t_c;
-      const double e_cc
-          = -e_c * g_Gc - e * (e_mc * Gm.d + e_Rc * GR.d + e_m * (Gm.dd + Gm_tc * t_c) + e_R * (GR.dd + GR_tc * t_c));
+      e.mc              = GR_tc * iD - e.m * D_c - GR.v * K * t_c;
+      e.Rc              = -Gm_tc * iD - e.R * D_c + Gm.v * K * t_c;
+      e.cc
+          = -e.c * g_Gc - e.e * (e.mc * Gm.d + e.Rc * GR.d + e.m * (Gm.dd + Gm_tc * t_c) + e.R * (GR.dd + GR_tc * t_c));
+      return e;
+    }
 
-      // Polar coordinates (R, 2 theta) of a = (sxx-syy)/2 and b = sxy: radial (r) and tangential (t) components.
-      const double iR   = 1 / R;
-      const double h_mt = -q * e_mc * iR, h_rt = -q * (e_Rc - e_c * iR) * iR;
-      const double h_tt = ((q * q * e_cc - c * e_c) * iR + e_R) * iR;
-      const double ec_R = e_c * q * iR;
-      const double n_a = e_R * c + ec_R * q, n_b = e_R * q - ec_R * c;
-      const double h_ma = e_mR * c - h_mt * q, h_mb = e_mR * q + h_mt * c;
-      const double h_aa = e_RR * c * c - 2 * h_rt * c * q + h_tt * q * q;
-      const double h_bb = e_RR * q * q + 2 * h_rt * c * q + h_tt * c * c;
-      const double h_ab = (e_RR - h_tt) * c * q + h_rt * (c * c - q * q);
-
-      gradient[0]   = 0.5 * s.sign * (e_m + n_a);
-      gradient[1]   = 0.5 * s.sign * (e_m - n_a);
-      gradient[2]   = s.sign * n_b;
-      hessian(0, 0) = 0.25 * (e_mm + h_aa) + 0.5 * h_ma;
-      hessian(1, 1) = 0.25 * (e_mm + h_aa) - 0.5 * h_ma;
-      hessian(0, 1) = hessian(1, 0) = 0.25 * (e_mm - h_aa);
-      hessian(0, 2) = hessian(2, 0) = 0.5 * (h_mb + h_ab);
-      hessian(1, 2) = hessian(2, 1) = 0.5 * (h_mb - h_ab);
-      hessian(2, 2)                 = h_bb;
+    double
+    Vegter::evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const
+    {
+      const State           s = locate(stress);
+      const MohrDerivatives e = derivatives(s);
+      mohr_to_cartesian(e, s.c, s.q, s.R, gradient, hessian);
+      gradient *= s.sign;
       if (s.apex_weight == 1)
-        return e;
+        return e.e;
       gradient = s.sign * (1 - s.apex_weight) * equibiaxial_gradient + s.apex_weight * gradient;
       return gradient.dot(stress); // Euler: e = n.s
     }

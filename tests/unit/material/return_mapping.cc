@@ -68,7 +68,8 @@ TEST(ReturnMapping, solves_every_trial_state)
                   evaluations += r.n_evaluations;
                   ++n;
                 }
-        std::printf("%-10s %-22s %.2f evaluations on average\n", locus, law, evaluations / n);
+        // What a plastic point costs; counted when written: 4.5 to 6.2.
+        EXPECT_LT(evaluations / n, 7.) << locus << " " << law;
       }
 }
 
