@@ -119,7 +119,7 @@ namespace
     std::mt19937                           random(5);
     std::uniform_real_distribution<double> plan(0, 100), height(-25, 25);
     int                                    compared = 0;
-    for (int i = 0; i < 1200; ++i)
+    for (int i = 0; i < 700; ++i)
       {
         const Vector3d x(plan(random), plan(random), height(random));
         const double   d      = tool.distance(x).distance;
@@ -148,14 +148,14 @@ namespace
         EXPECT_GE(std::abs(d), std::sqrt(std::max(0., best * best - e * e * (1 + curvature * std::abs(d)))) - 1e-10)
             << x.transpose();
       }
-    EXPECT_GT(compared, 90);
+    EXPECT_GT(compared, 50);
   }
 } // namespace
 
 TEST(DrawingTools, AgreeWithTheNearestPointOfASampledSurface)
 {
   // Spread: by how much the distance of two neighbouring normals grows from the wall to the end of the flat.
-  const double step = 0.3;
+  const double step = 0.5;
   compare_with_closest_sample(
       cross_die, sample_cross(reach + clearance, half_width + clearance, corner + clearance, fillet - clearance, step),
       sample_section(die_edge, 40, 10, step), 1, (21.5 + 24) / 21.5, step);
