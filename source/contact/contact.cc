@@ -43,12 +43,14 @@ namespace tribodraw
                     std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero())};
       }
     for (auto &t : tool)
-      {
-        t.committed_z = t.z;
-        // tools that touch at the start already lean on the transition range: nobody worked for that energy
-        for (unsigned i = 0; i < shell.n_nodes(); ++i)
-          initially_stored += area[i] * energy(half_thickness[i] - t.distance(shell.trial().position[i]).distance);
-      }
+      t.committed_z = t.z;
+  }
+
+  void
+  Contact::start_energy_balance()
+  {
+    energy_at_start += stored;
+    stored = dissipated = 0;
   }
 
   void
@@ -190,7 +192,7 @@ namespace tribodraw
   void
   Contact::commit()
   {
-    stored = -initially_stored;
+    stored = -energy_at_start;
     for (auto &f : faces)
       {
         std::fill(f.pressure.begin(), f.pressure.end(), 0.);
@@ -269,7 +271,7 @@ namespace tribodraw
       }
     archive.put("contact/area", area);
     archive.put("contact/half thickness", half_thickness);
-    archive.put("contact/energies", std::vector<double>{dissipated, stored});
+    archive.put("contact/energies", std::vector<double>{dissipated, stored, energy_at_start});
   }
 
   void
@@ -303,7 +305,9 @@ namespace tribodraw
       }
     area           = archive.numbers("contact/area", sheet.n_nodes());
     half_thickness = archive.numbers("contact/half thickness", sheet.n_nodes());
-    dissipated     = archive.numbers("contact/energies", 2)[0];
-    stored         = archive.numbers("contact/energies", 2)[1];
+    const auto &energies = archive.numbers("contact/energies", 3);
+    dissipated           = energies[0];
+    stored               = energies[1];
+    energy_at_start      = energies[2];
   }
 } // namespace tribodraw

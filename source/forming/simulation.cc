@@ -260,6 +260,8 @@ namespace tribodraw
         closed = done > 1 - 1e-9 ? settings.closing_increments : static_cast<unsigned>(done * settings.closing_increments);
         advance(load, outcome, true);
       }
+    contact.start_energy_balance();
+    record.external_work = record.friction_work = record.contact_energy = 0;
     log::info("Blank holder closed with " + units::format(process.blank_holder_force, "kN") + ".");
   }
 

@@ -89,6 +89,9 @@ namespace tribodraw
       std::vector<Eigen::Vector3d> slip;       ///< relative sliding of the last increment [mm]
     };
     const FaceState &face(Face f) const { return faces[static_cast<int>(f)]; }
+    /// Count energies from the committed state on: tools that touch before the holder closes already lean on the transition
+    /// range, and nobody worked for that.
+    void start_energy_balance();
     /// Energy dissipated by friction and stored in the penalty springs so far, modelled part [N mm].
     double friction_work() const { return dissipated; }
     double penalty_energy() const { return stored; }
@@ -128,7 +131,7 @@ namespace tribodraw
     std::vector<std::vector<NodeTool>>                  pair;                 // [tool][node]
     std::array<FaceState, n_faces>                      faces;
     std::vector<Eigen::Vector3d>                        tool_force;
-    double                                              scale = 0, dissipated = 0, stored = 0, initially_stored = 0;
+    double                                              scale = 0, dissipated = 0, stored = 0, energy_at_start = 0;
   };
 } // namespace tribodraw
 

@@ -1,0 +1,198 @@
+// The forming loop on a small, coarse square cup: balances, symmetry, restart, and what happens without convergence.
+#include <tribodraw/base/errors.h>
+#include <tribodraw/base/parameters.h>
+#include <tribodraw/forming/constant_friction.h>
+#include <tribodraw/forming/simulation.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+using namespace tribodraw;
+
+namespace
+{
+  // NUMISHEET'93 square cup: tools and Swift hardening; isotropic here, so that x and y must agree
+  const std::string cup = R"(
+subsection Blank
+  set Length = 150 mm
+  set Width = 150 mm
+  set Thickness = 0.78 mm
+  set Element size = 9.375 mm
+end
+subsection Sheet material
+  set Young's modulus = 206 GPa
+  set Poisson's ratio = 0.3
+  set Yield locus = von Mises
+  set Hardening = Swift
+  subsection Swift
+    set Strength coefficient = 565.32 MPa
+    set Initial strain = 0.007117
+    set Hardening exponent = 0.2589
+  end
+end
+subsection Tools
+  subsection Die
+    set Model = square die
+    subsection Square die
+      set Width in x = 74 mm
+      set Width in y = 74 mm
+      set Corner radius = 12 mm
+      set Clearance = 0 mm
+      set Edge radius = 5 mm
+    end
+  end
+  subsection Punch
+    set Model = square punch
+    subsection Square punch
+      set Width in x = 70 mm
+      set Width in y = 70 mm
+      set Corner radius = 10 mm
+      set Edge radius = 8 mm
+    end
+  end
+end
+subsection Process
+  set Punch travel = 6 mm
+  set Punch speed = 10 mm/s
+  set Blank holder force = 19.6 kN
+end
+)";
+
+  struct Records : Observer
+  {
+    std::vector<IncrementRecord> all;
+    bool                         ended = false, converged = false;
+    void committed(const Simulation &, const IncrementRecord &r) override { all.push_back(r); }
+    void finished(const Simulation &, const bool ok) override
+    {
+      ended     = true;
+      converged = ok;
+    }
+  };
+
+  struct Drawing
+  {
+    std::unique_ptr<Simulation> simulation;
+    std::shared_ptr<Records>    records = std::make_shared<Records>();
+
+    explicit Drawing(const std::vector<std::string> &changes = {}, const double mu = 0.1)
+    {
+      Parameters p   = Parameters::from_text(cup, "cup", changes);
+      const auto in  = [&](const char *name, auto read) {
+        const auto scope = p.section(name);
+        return read(p);
+      };
+      const auto blank    = in("Blank", Blank::read);
+      const auto material = std::make_shared<SheetMaterial>(in("Sheet material", SheetMaterial::read));
+      const auto tools    = in("Tools", ToolSet::read);
+      const auto process  = in("Process", Process::read);
+      const auto settings = in("Solver", SolverSettings::read);
+      p.finish();
+      simulation = std::make_unique<Simulation>(blank, material, tools, process, settings, std::make_unique<ConstantFriction>(mu));
+      simulation->add_observer(records);
+    }
+  };
+} // namespace
+
+TEST(Forming, ForcesBalanceInEveryIncrementAndEnergyIsAccountedFor)
+{
+  Drawing run;
+  run.simulation->run();
+  ASSERT_TRUE(run.records->converged);
+  const auto &all = run.records->all;
+  ASSERT_GT(all.size(), 6u);
+  for (const auto &r : all)
+    {
+      // punch + holder - die = sum of the vertical residuals; their norm is bounded by the Newton tolerance (1e-4 of the sum
+      // of contact forces), the sum of n of them by sqrt(n) more; n = 81 nodes
+      EXPECT_LT(r.force_imbalance, 1e-4 * 9) << r.punch_travel << " mm";
+      EXPECT_LT(r.residual, 1e-4);
+    }
+  const auto &last = all.back();
+  EXPECT_NEAR(last.punch_travel, 6., 1e-12);
+  EXPECT_NEAR(last.blank_holder_force, 19600., 1e-3 * 19600);
+  EXPECT_NEAR(last.time, 0.1 + 0.6, 1e-9); // closing time + travel / speed
+  // the parts: none negative, and together the work of the tools but for the time discretisation
+  EXPECT_GT(last.plastic_work, 0);
+  EXPECT_GT(last.friction_work, 0);
+  EXPECT_GT(last.elastic_energy, 0);
+  EXPECT_LT(std::abs(last.energy_error()), 0.03);
+}
+
+// Isotropic sheet, square tools: the quarter is symmetric about its diagonal, except for the diagonals of the mesh, which
+// alternate. Draw-in in x and y must therefore agree closely.
+TEST(Forming, IsotropicCupIsSymmetric)
+{
+  Drawing run;
+  run.simulation->run();
+  const auto &r = run.records->all.back();
+  EXPECT_GT(r.draw_in_x, 0.3);
+  EXPECT_NEAR(r.draw_in_x, r.draw_in_y, 0.02 * r.draw_in_x);
+}
+
+// More friction and more holder force need more punch force.
+TEST(Forming, FrictionRaisesThePunchForce)
+{
+  Drawing smooth({}, 0.02), rough({}, 0.2);
+  smooth.simulation->run();
+  rough.simulation->run();
+  EXPECT_GT(rough.records->all.back().punch_force, 1.02 * smooth.records->all.back().punch_force);
+}
+
+TEST(Forming, ResumedRunEndsInTheSameBits)
+{
+  const auto folder = std::filesystem::temp_directory_path() / ("forming" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  Drawing whole;
+  whole.simulation->checkpoint_to(folder, 2.);
+  whole.simulation->run();
+  Drawing second;
+  ASSERT_TRUE(second.simulation->resume(folder));
+  const double from = second.simulation->record().punch_travel;
+  EXPECT_GT(from, 1.9);
+  EXPECT_LT(from, 6.);
+  second.simulation->run();
+  const auto &a = whole.records->all.back(), &b = second.records->all.back();
+  EXPECT_EQ(a.punch_force, b.punch_force);
+  EXPECT_EQ(a.draw_in_diagonal, b.draw_in_diagonal);
+  EXPECT_EQ(a.external_work, b.external_work);
+  EXPECT_EQ(a.friction_work, b.friction_work);
+  EXPECT_EQ(a.plastic_work, b.plastic_work);
+  EXPECT_EQ(whole.simulation->shell().committed().position.back(), second.simulation->shell().committed().position.back());
+
+  Drawing other({"Blank/Thickness = 0.8 mm"});
+  try
+    {
+      other.simulation->resume(folder);
+      FAIL() << "a checkpoint of another thickness must be refused";
+    }
+  catch (const InputError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("Blank/Thickness"), std::string::npos) << e.what();
+    }
+  std::filesystem::remove_all(folder);
+  Drawing none;
+  EXPECT_FALSE(none.simulation->resume(folder));
+}
+
+TEST(Forming, WithoutConvergenceTheLastStateIsHandedOverAndExplained)
+{
+  Drawing run({"Solver/First increment = 4 mm", "Solver/Largest increment = 4 mm", "Solver/Smallest increment = 3 mm", "Solver/Maximal iterations = 5"});
+  try
+    {
+      run.simulation->run();
+      FAIL() << "increments of 4 mm within five iterations cannot work";
+    }
+  catch (const ConvergenceError &e)
+    {
+      const std::string text = e.what();
+      for (const char *piece : {"punch travel", "Largest unbalanced forces", "node", "touching", "Try"})
+        EXPECT_NE(text.find(piece), std::string::npos) << text;
+    }
+  EXPECT_TRUE(run.records->ended);
+  EXPECT_FALSE(run.records->converged);
+}
