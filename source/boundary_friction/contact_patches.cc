@@ -15,6 +15,7 @@ namespace tribodraw
     struct Sums
     {
       double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, height = 0;
+      double lowest = 0, tool_rim = 0, plateau_rim = 0;
 
       void
       add(const double px, const double py, const double t)
@@ -26,6 +27,7 @@ namespace tribodraw
         xy += px * py;
         yy += py * py;
         height += t;
+        lowest = t; // pixels come from the highest to the lowest
       }
     };
 
@@ -78,7 +80,7 @@ namespace tribodraw
 
   PlateauContact::PlateauContact(const HeightMap &sheet, const HeightMap &tool,
                                  const std::vector<std::uint32_t> &tool_order, const double cut_height)
-      : map(tool), position(tool.size(), -1)
+      : map(tool), rank(tool.size(), -1)
   {
     if (sheet.nx != tool.nx || sheet.ny != tool.ny || tool_order.size() != tool.size())
       throw InputError(describe_error("Contact patches need sheet and tool heights on the same grid",
@@ -87,60 +89,71 @@ namespace tribodraw
                                           + std::to_string(tool.nx) + " x " + std::to_string(tool.ny) + " pixels"));
     for (const std::uint32_t i : tool_order)
       if (sheet.z[i] >= cut_height)
-        pixel.push_back(i);
+        {
+          rank[i] = static_cast<std::int32_t>(pixel.size());
+          pixel.push_back(i);
+        }
   }
 
   std::vector<ContactPatch>
   PlateauContact::patches(const std::size_t n_pixels) const
   {
-    const std::size_t n  = std::min(n_pixels, pixel.size());
-    const auto        nx = static_cast<std::int64_t>(map.nx), ny = static_cast<std::int64_t>(map.ny);
+    const std::size_t n = std::min(n_pixels, pixel.size());
     if (n == 0)
       return {};
+    const auto for_neighbours = [&](const std::uint32_t p, const auto &visit) {
+      const std::size_t nx = map.nx, ix = p % nx, iy = p / nx;
+      for (std::size_t jy = iy > 0 ? iy - 1 : 0; jy <= std::min(iy + 1, map.ny - 1); ++jy)
+        for (std::size_t jx = ix > 0 ? ix - 1 : 0; jx <= std::min(ix + 1, nx - 1); ++jx)
+          visit(rank[jy * nx + jx]);
+    };
 
     std::vector<std::int32_t> parent(n);
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(n); ++k)
       {
-        parent[k]             = static_cast<std::int32_t>(k);
-        position[pixel[k]]    = static_cast<std::int32_t>(k);
-        const std::int64_t ix = pixel[k] % nx, iy = pixel[k] / nx;
-        for (std::int64_t jy = std::max<std::int64_t>(iy - 1, 0); jy <= std::min(iy + 1, ny - 1); ++jy)
-          for (std::int64_t jx = std::max<std::int64_t>(ix - 1, 0); jx <= std::min(ix + 1, nx - 1); ++jx)
-            if (const std::int32_t neighbour = position[jy * nx + jx]; neighbour >= 0)
-              {
-                // The earlier pixel becomes the root: results do not depend on the order of the unions.
-                const std::int32_t r   = find_root(parent, static_cast<std::int32_t>(k)),
-                                   q   = find_root(parent, neighbour);
-                parent[std::max(r, q)] = std::min(r, q);
-              }
+        parent[k] = k;
+        for_neighbours(pixel[k], [&](const std::int32_t neighbour) {
+          if (neighbour < 0 || neighbour >= k)
+            return;
+          // The earlier pixel becomes the root: results do not depend on the order of the unions.
+          const std::int32_t r = find_root(parent, k), q = find_root(parent, neighbour);
+          parent[std::max(r, q)] = std::min(r, q);
+        });
       }
 
-    const double              level = map.z[pixel[std::min(n, pixel.size() - 1)]];
+    const double              plane = map.z[pixel[std::min(n, pixel.size() - 1)]];
     std::vector<std::int32_t> patch_of(n, -1);
     std::vector<Sums>         sums;
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(n); ++k)
       {
-        const std::int32_t root = find_root(parent, static_cast<std::int32_t>(k));
+        const std::int32_t root = find_root(parent, k);
         if (patch_of[root] < 0)
           {
             patch_of[root] = static_cast<std::int32_t>(sums.size());
             sums.emplace_back();
           }
-        sums[patch_of[root]].add(pixel[k] % nx, pixel[k] / nx, map.z[pixel[k]] - level);
-        position[pixel[k]] = -1; // leave the work space clean
+        Sums &s = sums[patch_of[root]];
+        s.add(pixel[k] % map.nx, pixel[k] / map.nx, map.z[pixel[k]] - plane);
+        for_neighbours(pixel[k], [&](const std::int32_t neighbour) {
+          s.tool_rim += neighbour >= static_cast<std::int32_t>(n);
+          s.plateau_rim += neighbour < 0;
+        });
       }
 
     std::vector<ContactPatch> result;
     result.reserve(sums.size());
     for (const Sums &s : sums)
       {
+        const double rim         = s.tool_rim + s.plateau_rim;
+        const double base        = rim > 0 ? s.lowest * s.plateau_rim / rim : s.lowest; // above the plane
+        const double mean_height = std::max(0., s.height / s.n - base);
         ContactPatch patch;
         patch.pixels   = static_cast<std::size_t>(s.n);
         patch.area     = s.n * pixel_area();
-        patch.volume   = s.height * pixel_area();
+        patch.volume   = mean_height * patch.area;
         patch.centre_x = s.x / s.n * map.dx;
         patch.centre_y = s.y / s.n * map.dy;
-        patch.w        = 2. * s.height / s.n;
+        patch.w        = 2. * mean_height;
         fit_ellipse(s, map.dx, map.dy, patch);
         result.push_back(patch);
       }

@@ -176,55 +176,41 @@ namespace tribodraw
             return result;
           };
 
-    // Half of each patch carries: the number of pixels for small slopes is a close first guess.
-    std::size_t  below = 0, above = n;
-    const double guess = load / (0.5 * hardness * contact.pixel_area());
-    PatchSums    low, high;
-    bool         have_high = false;
-    for (const double factor : { 1.02, 1.3 })
-      if (const double trial = std::ceil(guess * factor) + 1.; !have_high && trial < static_cast<double>(n))
+    std::size_t below = 0, above = n;
+    PatchSums   low, high;
+    bool        have_high  = false;
+    const auto  try_pixels = [&](const std::size_t m) {
+      const PatchSums sums = sum_patches(contact, m, n_directions);
+      if (sums.support(hardness, tau) >= load)
         {
-          const auto      m    = static_cast<std::size_t>(trial);
-          const PatchSums sums = sum_patches(contact, m, n_directions);
-          if (sums.support(hardness, tau) >= load)
-            {
-              above     = m;
-              high      = sums;
-              have_high = true;
-            }
-          else
-            {
-              below = m;
-              low   = sums;
-            }
+          above     = m;
+          high      = sums;
+          have_high = true;
         }
+      else
+        {
+          below = m;
+          low   = sums;
+        }
+    };
+    // Half of each patch carries: for small slopes the number of pixels is known within a few per cent.
+    const double guess = load / (0.5 * hardness * contact.pixel_area());
+    for (const double factor : { 1.05, 0.98, 1.3 })
+      if (const double trial = std::ceil(guess * factor) + 1.;
+          trial > static_cast<double>(below) && trial < static_cast<double>(above))
+        try_pixels(static_cast<std::size_t>(trial));
+    if (!have_high)
+      try_pixels(n);
     if (!have_high)
       {
-        high = sum_patches(contact, n, n_directions);
-        if (high.support(hardness, tau) < load)
-          {
-            result.saturated      = true;
-            result.patch_pressure = (load + tau * high.shear_support) / high.area;
-            return finish(high.ploughing(result.patch_pressure, tau), high.support(result.patch_pressure, tau),
-                          static_cast<double>(n), high.n_patches);
-          }
+        result.saturated      = true;
+        result.patch_pressure = (load + tau * low.shear_support) / low.area;
+        return finish(low.ploughing(result.patch_pressure, tau), low.support(result.patch_pressure, tau),
+                      static_cast<double>(n), low.n_patches);
       }
     // Interval halving; secant steps would be led astray by the jumps when patches merge.
-    for (unsigned int i = 0; i < 64 && above - below > 1; ++i)
-      {
-        const std::size_t mid  = below + (above - below) / 2;
-        const PatchSums   sums = sum_patches(contact, mid, n_directions);
-        if (sums.support(hardness, tau) >= load)
-          {
-            above = mid;
-            high  = sums;
-          }
-        else
-          {
-            below = mid;
-            low   = sums;
-          }
-      }
+    for (unsigned int i = 0; i < 64 && above - below > 1 + above / 500; ++i)
+      try_pixels(below + (above - below) / 2);
     const double support_low = low.support(hardness, tau), support_high = high.support(hardness, tau);
     const double share = (load - support_low) / (support_high - support_low);
     return finish((1. - share) * low.ploughing(hardness, tau) + share * high.ploughing(hardness, tau),

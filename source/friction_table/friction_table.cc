@@ -76,11 +76,13 @@ namespace tribodraw
     if (!(s > s_points.front()))
       return s;
 
-    // Weights of the four rows along s that surround (p, eps). Between strains the weight is that of the shear
-    // strength, through which strain enters.
-    const Place p  = locate(p_points, p_solid);
-    const Place e  = locate(e_points, eps);
-    double      we = e.weight;
+    // Weights of the four rows along s that surround (p, eps). Below the first pressure the straight line is continued
+    // to p = 0. Between strains the weight is that of the shear strength, through which strain enters.
+    const Place e = locate(e_points, eps);
+    Place       p = locate(p_points, p_solid);
+    if (p_solid < p_points.front() && p_points.size() > 1)
+      p.weight = (p_solid - p_points[0]) / (p_points[1] - p_points[0]);
+    double we = e.weight;
     if (e.weight > 0. && e.weight < 1.)
       {
         const double k0 = shear_strength.value({ e_points[e.cell] }),
@@ -147,10 +149,15 @@ namespace tribodraw
       return s_old;
     if (p_solid > max_pressure() || eps_new > max_strain())
       ++outside;
-    const double bottom = curves.cut_height.front();
-    double       s = std::min({ s_old, initial_cut_height, std::max(bottom, normal_cut_height(p_solid, eps_old)) });
+    double s = std::min(s_old, initial_cut_height);
+    if (strain_load_per_descent.values().front() >= rigid_strain_load)
+      s = std::min(s, std::max(curves.cut_height.front(), normal_cut_height(p_solid, eps_old)));
+    else
+      s = descend(s, p_solid, eps_old, 0.); // down to where the strain rate number is zero: the load alone
     const double strain = std::max(0., eps_new - eps_old);
-    const auto   steps  = static_cast<unsigned int>(
+    if (!(strain > 0))
+      return std::min(s, s_old);
+    const auto steps = static_cast<unsigned int>(
         std::clamp(std::ceil(strain / largest_strain_step), 1., static_cast<double>(max_strain_steps)));
     for (unsigned int i = 0; i < steps; ++i)
       s = descend(s, p_solid, eps_old + (i + 0.5) * strain / steps, strain / steps);

@@ -122,6 +122,12 @@ namespace tribodraw
           fail("An entry of the friction table has the unit `" + found + "`", place, "`" + expected + "`");
       }
 
+      const std::string &
+      name() const
+      {
+        return file;
+      }
+
     private:
       std::string file;
     };
@@ -160,7 +166,7 @@ namespace tribodraw
           read.unit(list[d], names[d].unit, axis_place);
           axes[d].points = read.numbers(list[d], "points", axis_place);
           axes[d].scale  = scale == "linear" ? AxisScale::linear : AxisScale::logarithmic;
-          axes[d].check(axis_place);
+          axes[d].check(read.name() + ", `" + axis_place + "`");
           n *= axes[d].points.size();
         }
       std::vector<double> values = read.numbers(j, "values", place);

@@ -55,9 +55,9 @@ namespace tribodraw
     std::vector<ContactPatch> patches(std::size_t n_pixels) const;
 
   private:
-    const HeightMap                  &map;      // of the tool
-    std::vector<std::uint32_t>        pixel;    // plateau pixels in the order in which they touch
-    mutable std::vector<std::int32_t> position; // of a map pixel in the contact order, -1 outside; work space
+    const HeightMap           &map;   // of the tool
+    std::vector<std::uint32_t> pixel; // plateau pixels in the order in which they touch
+    std::vector<std::int32_t>  rank;  // of each map pixel in that order, -1 outside the plateaus
   };
 } // namespace tribodraw
 

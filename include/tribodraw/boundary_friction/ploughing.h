@@ -44,8 +44,8 @@ namespace tribodraw
 
   /// Find the indentation of the tool at which the leading sides of its contact patches, at pressure @p hardness and
   /// shear stress @p tau, carry @p p_solid per nominal area; average over @p n_directions sliding directions spread
-  /// over 180 degrees. Pixels enter the contact one at a time; the two neighbouring states are mixed so that support
-  /// equals load.
+  /// over 180 degrees. Pixels enter the contact one at a time; two states that differ by one pixel or 0.2 % of them are
+  /// mixed so that support equals load.
   PloughingBalance balance_ploughing(const PlateauContact &contact, double p_solid, double hardness, double tau,
                                      unsigned int n_directions);
 } // namespace tribodraw
