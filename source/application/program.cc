@@ -13,6 +13,8 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <chrono>
 #include <iostream>
 #include <new>

@@ -5,6 +5,7 @@
 #include <tribodraw/base/log.h>
 #include <tribodraw/output/plot.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
@@ -107,8 +108,10 @@ namespace tribodraw::gnuplot
     const int status = start(in("plot.gp").c_str(), in("messages"));
     if (status != 0 || !std::filesystem::exists(in("out.svg")) || !std::filesystem::exists(in("out.png")))
       {
+        std::string messages = read_file(in("messages")).substr(0, 400);
+        std::replace(messages.begin(), messages.end(), '\n', ' ');
         log::warning("gnuplot could not draw " + stem.filename().string() + " (exit status " + std::to_string(status)
-                     + "): " + read_file(in("messages")).substr(0, 400));
+                     + "): " + messages);
         return false;
       }
     write_file(stem.string() + ".svg", read_file(in("out.svg")));

@@ -150,7 +150,7 @@ namespace tribodraw::plot
     const gnuplot::TemporaryFolder folder;
     std::ostringstream             script, curves;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << "set grid lc rgb '#c0c0c0' lw 0.5\n"
-           << "set key best opaque noautotitle\nset samples 2\n";
+           << "set key bmargin center horizontal Left reverse noautotitle\n";
     if (chart.logarithmic_x)
       script << "set logscale x\n";
     if (chart.logarithmic_y)

@@ -29,7 +29,7 @@ namespace tribodraw
       std::string
       describe() const override
       {
-        return "Would make the height map and measure its roughness.";
+        return "Height map of the sheet, its roughness and height distribution.";
       }
 
       void

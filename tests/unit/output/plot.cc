@@ -32,11 +32,16 @@ namespace
   }
 
   void
-  expect_figure(const std::filesystem::path &stem)
+  expect_figures(const TemporaryFolder &folder, const std::vector<std::string> &stems)
   {
-    ASSERT_TRUE(std::filesystem::exists(stem.string() + ".svg")) << stem;
-    EXPECT_EQ(TemporaryFolder::parse_xml(stem.string() + ".svg"), 0);
-    EXPECT_EQ(png_size(stem.string() + ".png").first, 1280u); // twice the 640 points of the SVG
+    std::vector<std::filesystem::path> files;
+    for (const auto &stem : stems)
+      {
+        files.push_back(folder / (stem + ".svg"));
+        ASSERT_TRUE(std::filesystem::exists(files.back())) << stem;
+        EXPECT_EQ(png_size(folder / (stem + ".png")).first, 1280u); // twice the 640 points of the SVG
+      }
+    EXPECT_EQ(TemporaryFolder::parse_xml(files), 0);
   }
 } // namespace
 
@@ -49,7 +54,7 @@ TEST(Plot, line_chart_with_quotes_gaps_and_logarithmic_axes)
   chart.series        = { { "first", { 0, 1, 2, 3 }, { 1, 2, NAN, 4 }, plot::Series::Style::line_with_points },
                           { "it's", { 1, 10 }, { 1, 2 }, plot::Series::Style::dashed_line } };
   ASSERT_TRUE(plot::draw(chart, folder / "chart"));
-  expect_figure(folder / "chart");
+  expect_figures(folder, { "chart" });
   // Texts are shown as they were given.
   const std::string svg = read_file(folder / "chart.svg");
   EXPECT_NE(svg.find("with _underscore_, $x &amp; &lt;tags&gt;"), std::string::npos);
@@ -75,7 +80,7 @@ TEST(Plot, map_of_a_triangle_field_gives_the_same_bytes_twice)
   chart.raster      = plot::rasterise_nodal(mesh, { 0, 1, NAN, 3 }, 200);
   chart.lines       = mesh.outline();
   ASSERT_TRUE(plot::draw(chart, folder / "map"));
-  expect_figure(folder / "map");
+  expect_figures(folder, { "map" });
   const std::string svg = read_file(folder / "map.svg"), png = read_file(folder / "map.png");
   ASSERT_TRUE(plot::draw(chart, folder / "map"));
   EXPECT_EQ(read_file(folder / "map.svg"), svg);
@@ -94,8 +99,7 @@ TEST(Figures, surface_folder)
   write_file(folder / "height_distribution.csv", "height_um,density_per_um\n-1,0.2\n0,0.5\n1,0.2\n");
   write_file(folder / "abbott_curve.csv", "material_ratio,height_um\n0,1\n0.5,0\n1,-1\n");
   figures::draw_all(folder.path());
-  for (const char *stem : { "surface_map", "height_distribution", "abbott_curve" })
-    expect_figure(folder / stem);
+  expect_figures(folder, { "surface_map", "height_distribution", "abbott_curve" });
 }
 
 TEST(Figures, flow_factors_and_friction_table_with_the_columns_of_the_files)
@@ -111,9 +115,8 @@ TEST(Figures, flow_factors_and_friction_table_with_the_columns_of_the_files)
       "phi_s_yy\n1,0,3,0.01,2,0.1,0.1,1,1,0,0\n10,0,2,0.1,1,1,0.1,1,1,0,0\n1,0.1,3,0.02,2,0.1,0.1,1,1,0,0\n"
       "10,0.1,2,0.3,1,1.2,0.12,1,1,0,0\n");
   figures::draw_all(folder.path());
-  for (const char *stem : { "phi_p", "phi_s", "table_contact_fraction", "table_film_thickness", "table_solid_shear",
-                            "table_friction_coefficient" })
-    expect_figure(folder / stem);
+  expect_figures(folder, { "phi_p", "phi_s", "table_contact_fraction", "table_film_thickness", "table_solid_shear",
+                           "table_friction_coefficient" });
 }
 
 TEST(Figures, forming_folder)
@@ -130,10 +133,9 @@ TEST(Figures, forming_folder)
                                             "0,0,1,2,0.1,-0.05,0.8,0.1,0.2\n1,0,2,3,0.12,-0.02,0.79,0.12,0.15\n");
   write_file(folder / "flc.csv", "minor_strain,major_strain\n-0.2,0.5\n0,0.3\n0.2,0.4\n");
   figures::draw_all(folder.path());
-  for (const char *stem : { "force_travel", "draw_in", "mean_friction", "fld", "friction_coefficient_die",
-                            "friction_coefficient_die_blank", "lubricant_pressure_die", "lubricant_pressure_die_blank",
-                            "contact_pressure_die_blank", "thickness", "thickness_blank" })
-    expect_figure(folder / stem);
+  expect_figures(folder, { "force_travel", "draw_in", "mean_friction", "fld", "friction_coefficient_die",
+                           "friction_coefficient_die_blank", "lubricant_pressure_die", "lubricant_pressure_die_blank",
+                           "contact_pressure_die_blank", "thickness", "thickness_blank" });
   // No such column in the files, so no such figure.
   EXPECT_FALSE(std::filesystem::exists(folder / "friction_coefficient_punch.svg"));
 }

@@ -33,7 +33,7 @@ TEST(Report, is_well_formed_and_self_contained)
 {
   const TemporaryFolder folder;
   const std::string     html = make_report(folder);
-  EXPECT_EQ(TemporaryFolder::parse_xml(folder / "report.html"), 0);
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "report.html" }), 0);
   // Nothing is loaded: no script, no link, no image that is not inside the page.
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("<link"), std::string::npos);
@@ -74,5 +74,5 @@ TEST(Report, an_empty_folder_gives_a_page)
 {
   const TemporaryFolder folder;
   write_report(folder.path());
-  EXPECT_EQ(TemporaryFolder::parse_xml(folder / "report.html"), 0);
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "report.html" }), 0);
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// A fresh folder for the files of one test.
 class TemporaryFolder
@@ -32,12 +33,14 @@ public:
     return folder;
   }
 
-  /// Exit status of Python's XML parser on a file: 0 if it is well-formed.
+  /// Exit status of Python's XML parser on files: 0 if all are well-formed.
   static int
-  parse_xml(const std::filesystem::path &file)
+  parse_xml(const std::vector<std::filesystem::path> &files)
   {
-    return std::system(
-        ("python3 -c \"import sys, xml.dom.minidom as x; x.parse(sys.argv[1])\" '" + file.string() + "'").c_str());
+    std::string command = "python3 -c \"import sys, xml.dom.minidom as x; [x.parse(f) for f in sys.argv[1:]]\"";
+    for (const auto &file : files)
+      command += " '" + file.string() + "'";
+    return std::system(command.c_str());
   }
 
 private:

@@ -72,7 +72,7 @@ TEST(Vtu, fields_read_back)
 {
   const TemporaryFolder folder;
   write_vtu(folder / "step.vtu", two_triangles());
-  EXPECT_EQ(TemporaryFolder::parse_xml(folder / "step.vtu"), 0);
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "step.vtu" }), 0);
   const std::string vtu = read_file(folder / "step.vtu");
 
   // Three points a triangle, in the order of its nodes 0 1 2 and 0 2 3.
@@ -123,7 +123,7 @@ TEST(Pvd, collection_is_read_back_and_cut)
   steps.add(0.1, "solution-00001.vtu");
   steps.add(0.25, "solution-00002.vtu");
   steps.save(folder / "solution.pvd");
-  EXPECT_EQ(TemporaryFolder::parse_xml(folder / "solution.pvd"), 0);
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "solution.pvd" }), 0);
 
   PvdCollection again = PvdCollection::load(folder / "solution.pvd");
   EXPECT_EQ(again.steps(), steps.steps());
