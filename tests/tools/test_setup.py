@@ -28,7 +28,9 @@ class Scripts(unittest.TestCase):
         (self.build / "bench").mkdir(parents=True)
         (self.build / "build.ninja").write_text("")
         (self.build / "CMakeCache.txt").write_text("TRIBODRAW_TESTS:BOOL=ON\n")
-        self.stand_in("ninja", "echo 'ninja: no work to do.'")
+        self.stand_in("ninja", "echo 'ninja: Entering directory'\n"
+                               "echo '[0/2 0.01s] Re-checking globbed directories...'\n"
+                               "echo 'ninja: no work to do.'")
         self.stand_in("cmake", "")
         self.stand_in("id", "echo 0")
         self.stand_in("apt-get", "")
@@ -115,6 +117,12 @@ class Scripts(unittest.TestCase):
     def test_changed_option_configures_again(self):
         self.assertEqual(self.run_script("run", "x.prm", TRIBODRAW_WERROR="ON").returncode, 0)
         self.assertIn("-DTRIBODRAW_WERROR=ON", self.called("cmake")[0])
+
+    def test_progress_is_shown(self):
+        self.stand_in("ninja", "echo '[1/2 3s] Building a.cc'; echo 'a.cc: warning: x'; echo '[2/2 5s] Linking'")
+        result = self.run_script("run", "x.prm")
+        self.assertEqual(result.stdout, "<x.prm>")  # that of the program alone
+        self.assertEqual(result.stderr.splitlines()[1:], ["[1/2 3s] Building a.cc", "a.cc: warning: x", "[2/2 5s] Linking"])
 
     def test_failing_cmake_and_compiler_stop_with_their_text(self):
         self.stand_in("ninja", "echo 'a.cc: error: oops'; exit 1")
