@@ -171,11 +171,12 @@ class Scripts(unittest.TestCase):
         header = "bench,case,cpu_s,wall_s,peak_mb,reference,reference_cpu_s,ratio"
         self.assertEqual((self.folder / "bench.csv").read_text(),
                          header + "\nmicro,666,1,1,50,CHOLMOD,4,4\ncup,square,35,20,300,,,\n")
+        self.assertIn("benchmark 'film' does not exist yet", result.stderr)
         self.assertEqual(self.run_script("bench", "cup").returncode, 0)
         self.assertEqual((self.folder / "bench.csv").read_text(), header + "\ncup,square,35,20,300,,,\n")
 
     def test_bench_fails_without_leaving_half_a_file(self):
-        self.assertEqual(self.run_script("bench", "film").returncode, 1)  # does not exist
+        self.assertEqual(self.run_script("bench", "table").returncode, 1)  # does not exist
         self.assertEqual(self.run_script("bench", "films").returncode, 2)
         self.program(self.build / "bench/bench_micro", "echo micro,666,1,1,50,,,; exit 1")
         self.assertEqual(self.run_script("bench", "micro").returncode, 1)
