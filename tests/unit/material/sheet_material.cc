@@ -212,7 +212,15 @@ TEST(SheetMaterial, work_and_energy)
       old_state.plastic_strain << 0.01, -0.003, 0.002;
       const Vector3 strain(0.03, -0.01, 0.02);
       const auto    u = sheet.update(strain, old_state, 0.1, state);
-      EXPECT_NEAR(u.plastic_work, u.stress.dot(state.plastic_strain - old_state.plastic_strain), 1e-9 * u.plastic_work);
+      // trapezoidal rule along the hardening curve at the rate of the increment
+      const double flow = state.eps_p - old_state.eps_p, rate = flow / 0.1;
+      const double mean = 0.5
+                          * (sheet.hardening().flow_stress(old_state.eps_p, rate).value
+                             + sheet.hardening().flow_stress(state.eps_p, rate).value);
+      EXPECT_NEAR(u.plastic_work, mean * flow, 1e-9 * u.plastic_work);
+      // and by associated flow, work is equivalent stress times flow at the end of the increment
+      EXPECT_NEAR(u.stress.dot(state.plastic_strain - old_state.plastic_strain),
+                  sheet.locus().equivalent_stress(u.stress) * flow, 1e-9 * u.plastic_work);
       EXPECT_NEAR(u.elastic_energy, 0.5 * u.stress.dot(strain - state.plastic_strain), 1e-9 * u.elastic_energy);
       EXPECT_LT((sheet.elasticity() * (strain - state.plastic_strain) - u.stress).norm(), 1e-8);
     }
