@@ -10,17 +10,19 @@ using namespace tribodraw;
 
 namespace
 {
-  BoundaryFriction read(const std::string &c0, const std::string &m)
+  BoundaryFriction
+  read(const std::string &c0, const std::string &m)
   {
-    Parameters parameters = Parameters::from_text("set Model = power law\n"
-                                                  "subsection Power law\n set c0 = " +
-                                                  c0 + "\n set m = " + m + "\nend\n");
-    BoundaryFriction result = BoundaryFriction::read(parameters);
+    Parameters       parameters = Parameters::from_text("set Model = power law\n"
+                                                              "subsection Power law\n set c0 = "
+                                                        + c0 + "\n set m = " + m + "\nend\n");
+    BoundaryFriction result     = BoundaryFriction::read(parameters);
     parameters.finish();
     return result;
   }
 
-  std::string message(const std::string &c0, const std::string &m)
+  std::string
+  message(const std::string &c0, const std::string &m)
   {
     try
       {
@@ -34,7 +36,6 @@ namespace
   }
 } // namespace
 
-
 // model.md 2.2: c0 = 11.2 Pa^0.25, m = 0.75.
 TEST(BoundaryLayer, PowerLawCarriesItsUnit)
 {
@@ -46,9 +47,9 @@ TEST(BoundaryLayer, PowerLawCarriesItsUnit)
   EXPECT_NEAR(friction.shear_law->shear_stress(100.), 11.2, 0.01);
   EXPECT_EQ(friction.shear_law->shear_stress(0.), 0.);
   // The same law in other units.
-  EXPECT_NEAR(read("0.3541751 MPa^0.25", "0.75").shear_law->shear_stress(840.), friction.shear_law->shear_stress(840.), 1e-5);
+  EXPECT_NEAR(read("0.3541751 MPa^0.25", "0.75").shear_law->shear_stress(840.), friction.shear_law->shear_stress(840.),
+              1e-5);
 }
-
 
 TEST(BoundaryLayer, ExponentSetsTheUnit)
 {
@@ -56,14 +57,12 @@ TEST(BoundaryLayer, ExponentSetsTheUnit)
   EXPECT_NEAR(read("0.1", "1").shear_law->shear_stress(500.), 50., 1e-12); // m = 1: a friction coefficient
 }
 
-
 TEST(BoundaryLayer, ShearStrengthIsTheCap)
 {
   const BoundaryFriction friction = read("11.2 Pa^0.25", "0.75");
   EXPECT_EQ(friction.layer_shear(840., 30.), 30.);
   EXPECT_EQ(friction.layer_shear(100., 30.), friction.shear_law->shear_stress(100.));
 }
-
 
 TEST(BoundaryLayer, RefusesWrongUnitsAndExponents)
 {

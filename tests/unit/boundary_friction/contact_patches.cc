@@ -11,7 +11,8 @@ namespace
 {
   const double pi = 3.14159265358979323846;
 
-  HeightMap flat_map(const std::size_t n, const double dx, const double dy, const double height)
+  HeightMap
+  flat_map(const std::size_t n, const double dx, const double dy, const double height)
   {
     HeightMap map;
     map.nx = map.ny = n;
@@ -22,20 +23,23 @@ namespace
   }
 
   /// A tool of height -1 everywhere, but for one elliptical paraboloid of the given depth above 0.
-  HeightMap paraboloid(const std::size_t n, const double length, const double a, const double b, const double w, const double psi)
+  HeightMap
+  paraboloid(const std::size_t n, const double length, const double a, const double b, const double w, const double psi)
   {
     HeightMap map = flat_map(n, length / n, length / n, -1.);
     for (std::size_t iy = 0; iy < n; ++iy)
       for (std::size_t ix = 0; ix < n; ++ix)
         {
           const double x = (ix + 0.5) * map.dx - 0.5 * length, y = (iy + 0.5) * map.dy - 0.5 * length;
-          const double u = (x * std::cos(psi) + y * std::sin(psi)) / a, v = (-x * std::sin(psi) + y * std::cos(psi)) / b;
-          map(ix, iy) = std::max(-1., w * (1. - u * u - v * v));
+          const double u = (x * std::cos(psi) + y * std::sin(psi)) / a,
+                       v = (-x * std::sin(psi) + y * std::cos(psi)) / b;
+          map(ix, iy)    = std::max(-1., w * (1. - u * u - v * v));
         }
     return map;
   }
 
-  std::size_t pixels_above(const HeightMap &map, const double level)
+  std::size_t
+  pixels_above(const HeightMap &map, const double level)
   {
     std::size_t n = 0;
     for (const double t : map.z)
@@ -44,12 +48,11 @@ namespace
   }
 } // namespace
 
-
 // A digital elliptical paraboloid is found again: area pi a b, volume pi a b w / 2, orientation.
 TEST(ContactPatches, FindsAParaboloid)
 {
-  const double    a = 0.3, b = 0.12, w = 0.01, psi = 0.4;
-  const HeightMap tool = paraboloid(400, 1., a, b, w, psi), sheet = flat_map(400, tool.dx, tool.dy, 0.);
+  const double         a = 0.3, b = 0.12, w = 0.01, psi = 0.4;
+  const HeightMap      tool = paraboloid(400, 1., a, b, w, psi), sheet = flat_map(400, tool.dx, tool.dy, 0.);
   const PlateauContact contact(sheet, tool, pixels_by_height(tool), 0.);
   EXPECT_EQ(contact.n_plateau_pixels(), tool.size());
   EXPECT_NEAR(contact.nominal_area(), 1., 1e-12);
@@ -68,7 +71,6 @@ TEST(ContactPatches, FindsAParaboloid)
   EXPECT_NEAR(p.volume, 0.5 * p.area * p.w, 1e-15);
 }
 
-
 TEST(ContactPatches, RectangularPixels)
 {
   // The same ellipse with axes 0.2 x 0.1 on pixels of 0.005 x 0.0025 is a circle of 40 pixels.
@@ -85,12 +87,11 @@ TEST(ContactPatches, RectangularPixels)
   EXPECT_NEAR(patches[0].psi, 0., 1e-6);
 }
 
-
 // Pixels that touch at a corner belong together; plateaus decide which pixels can touch.
 TEST(ContactPatches, EightNeighbours)
 {
   HeightMap tool = flat_map(8, 1., 1., 0.), sheet = flat_map(8, 1., 1., -1.);
-  for (const auto &[ix, iy] : {std::pair{1, 1}, {2, 2}, {3, 1}, {6, 6}, {6, 4}})
+  for (const auto &[ix, iy] : { std::pair{ 1, 1 }, { 2, 2 }, { 3, 1 }, { 6, 6 }, { 6, 4 } })
     {
       tool(ix, iy)  = 1.;
       sheet(ix, iy) = 0.;
@@ -113,7 +114,6 @@ TEST(ContactPatches, EightNeighbours)
   EXPECT_EQ(contact.patches(5).size(), 3u);
   EXPECT_TRUE(contact.patches(0).empty());
 }
-
 
 TEST(ContactPatches, RefusesDifferentGrids)
 {

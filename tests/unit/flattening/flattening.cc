@@ -15,11 +15,12 @@ using test::normal_distribution;
 
 namespace
 {
-  std::shared_ptr<const AsperityModel> make_model(const std::string &name, const std::string &entries = "")
+  std::shared_ptr<const AsperityModel>
+  make_model(const std::string &name, const std::string &entries = "")
   {
     const std::string section = name == "ideal plastic" ? "Ideal plastic" : name;
-    Parameters        parameters =
-      Parameters::from_text("set Model = " + name + "\nsubsection " + section + "\n" + entries + "\nend\n");
+    Parameters        parameters
+        = Parameters::from_text("set Model = " + name + "\nsubsection " + section + "\n" + entries + "\nend\n");
     std::shared_ptr<const AsperityModel> model = parameters.model<AsperityModel>("Model", "");
     parameters.finish();
     return model;
@@ -27,25 +28,27 @@ namespace
 
   struct ConstantHardening : HardeningLaw
   {
-    explicit ConstantHardening(const double stress)
-      : stress(stress)
-    {}
-    FlowStress flow_stress(double, double) const override { return {stress, 0., 0.}; }
+    explicit ConstantHardening(const double stress) : stress(stress) {}
+    FlowStress
+    flow_stress(double, double) const override
+    {
+      return { stress, 0., 0. };
+    }
     const double stress;
   };
 
   /// Steep at the start, like annealed steel.
   struct PowerHardening : HardeningLaw
   {
-    FlowStress flow_stress(const double strain, double) const override
+    FlowStress
+    flow_stress(const double strain, double) const override
     {
-      return {500. * std::pow(strain + 0.005, 0.22), 0., 0.};
+      return { 500. * std::pow(strain + 0.005, 0.22), 0., 0. };
     }
   };
 
   const double um = 1e-3;
 } // namespace
-
 
 // P/k of model.md 1.2 (C) and (B); (A) is linear with 5.142.
 TEST(AsperityModels, NormalLoads)
@@ -53,9 +56,10 @@ TEST(AsperityModels, NormalLoads)
   const auto   wilson_sheu = make_model("Wilson-Sheu");
   const double ratio       = 5.142 / std::sqrt(3.); // hardness over flow stress that gives H = 5.142 k
   const auto   linear      = make_model("ideal plastic", "set Hardness over flow stress = " + std::to_string(ratio));
-  const auto   pullen      = make_model("Pullen-Williamson", "set Hardness over flow stress = " + std::to_string(ratio));
-  const double expected[][4] = {{.05, .2571, .2706, .2524}, {.1, .5142, .5713, .4963}, {.2, 1.028, 1.286, .966},
-                                {.3, 1.543, 2.204, 1.427},  {.5, 2.571, 5.142, 2.418}, {.7, 3.599, 12.00, 3.799}};
+  const auto   pullen = make_model("Pullen-Williamson", "set Hardness over flow stress = " + std::to_string(ratio));
+  const double expected[][4]
+      = { { .05, .2571, .2706, .2524 }, { .1, .5142, .5713, .4963 }, { .2, 1.028, 1.286, .966 },
+          { .3, 1.543, 2.204, 1.427 },  { .5, 2.571, 5.142, 2.418 }, { .7, 3.599, 12.00, 3.799 } };
   for (const auto &[alpha, a, b, c] : expected)
     {
       EXPECT_NEAR(linear->normal_load(alpha, 1.), a, 6e-4);
@@ -67,16 +71,17 @@ TEST(AsperityModels, NormalLoads)
   EXPECT_NEAR(pullen->normal_load(0.5, 1.), ratio * std::sqrt(3.), 1e-5);
 }
 
-
 // f1 and f2 of model.md 1.3, recovered from E = (2 A k/P - f2)/f1 at two loads.
 TEST(AsperityModels, WilsonSheuStrainFunctions)
 {
-  const auto   model         = make_model("Wilson-Sheu");
-  const double expected[][3] = {{.1, .54090, .40298}, {.3, .54110, .42052}, {.5, .47250, .41364}, {.9, .12890, .26714}};
+  const auto   model = make_model("Wilson-Sheu");
+  const double expected[][3]
+      = { { .1, .54090, .40298 }, { .3, .54110, .42052 }, { .5, .47250, .41364 }, { .9, .12890, .26714 } };
   for (const auto &[alpha, f1, f2] : expected)
     {
-      const double e1 = model->strain_rate_number(alpha, 2. * alpha, 1.), e2 = model->strain_rate_number(alpha, alpha, 1.);
-      EXPECT_NEAR(1. / (e2 - e1), f1, 1e-5);     // 2 A k/P = 1 and 2
+      const double e1 = model->strain_rate_number(alpha, 2. * alpha, 1.),
+                   e2 = model->strain_rate_number(alpha, alpha, 1.);
+      EXPECT_NEAR(1. / (e2 - e1), f1, 1e-5); // 2 A k/P = 1 and 2
       EXPECT_NEAR(1. - e1 / (e2 - e1), f2, 1e-5);
       // Load alone is the branch E = 0: straining starts without a jump.
       EXPECT_NEAR(model->strain_rate_number(alpha, model->normal_load(alpha, 1.), 1.), 0., 1e-14);
@@ -85,7 +90,6 @@ TEST(AsperityModels, WilsonSheuStrainFunctions)
   EXPECT_LT(model->strain_rate_number(0.1, 10., 1.), 0.); // the load alone still flattens
 }
 
-
 TEST(Flattening, IsolatedPlateausHaveThePrandtlHardness)
 {
   const Flattening flattening(make_model("Wilson-Sheu"), 25 * um, 0.1);
@@ -93,19 +97,17 @@ TEST(Flattening, IsolatedPlateausHaveThePrandtlHardness)
   EXPECT_NEAR(flattening.shear_strength(ConstantHardening(200.), 0.), 115.470054, 1e-6); // 200/sqrt(3)
 }
 
-
 TEST(Flattening, LoadIsInvertedExactly)
 {
-  for (const char *name : {"Wilson-Sheu", "Pullen-Williamson"})
+  for (const char *name : { "Wilson-Sheu", "Pullen-Williamson" })
     {
       const auto       model = make_model(name, name[0] == 'P' ? "set Hardness over flow stress = 2.8" : "");
       const Flattening flattening(model, 25 * um, 0.1);
-      for (const double p : {1e-3, 1., 20., 200., 600.})
+      for (const double p : { 1e-3, 1., 20., 200., 600. })
         EXPECT_NEAR(model->normal_load(flattening.contact_fraction_under_load(p, 115.), 115.), p, 1e-11 * p);
       EXPECT_EQ(flattening.contact_fraction_under_load(0., 115.), 0.);
     }
 }
-
 
 // Sample of model.md 1.3: Gaussian Sq 1.6 um, sigma_y = 200 MPa, l = 25 um. Values as printed there.
 TEST(Flattening, SampleOfNormalLoadAndStrain)
@@ -113,41 +115,41 @@ TEST(Flattening, SampleOfNormalLoadAndStrain)
   const HeightDistribution heights(gaussian_map(700, 1.6 * um));
   const ConstantHardening  hardening(200.);
   const Flattening         flattening(make_model("Wilson-Sheu"), 25 * um, 0.1);
-  const auto contact = [&](const double p) {
+  const auto               contact = [&](const double p) {
     std::vector<double> alpha;
-    for (const double s : flattening.monotone_cut_heights(heights, hardening, p, {0., .05, .1, .2}))
+    for (const double s : flattening.monotone_cut_heights(heights, hardening, p, { 0., .05, .1, .2 }))
       alpha.push_back(heights.contact_fraction(s));
     return alpha;
   };
-  const auto compare = [](const std::vector<double> &found, const std::vector<double> &expected, const double tolerance) {
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      EXPECT_NEAR(found[i], expected[i], tolerance) << i;
-  };
-  compare(contact(5.), {.0084, .043, .064, .102}, 6e-4);
-  compare(contact(10.), {.0170, .080, .119, .184}, 6e-4);
-  compare(contact(20.), {.0341, .149, .216, .321}, 6e-4);
+  const auto compare
+      = [](const std::vector<double> &found, const std::vector<double> &expected, const double tolerance) {
+          for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(found[i], expected[i], tolerance) << i;
+        };
+  compare(contact(5.), { .0084, .043, .064, .102 }, 6e-4);
+  compare(contact(10.), { .0170, .080, .119, .184 }, 6e-4);
+  compare(contact(20.), { .0341, .149, .216, .321 }, 6e-4);
 
-  const auto s = flattening.monotone_cut_heights(heights, hardening, 5., {0., .05, .1, .2});
+  const auto s = flattening.monotone_cut_heights(heights, hardening, 5., { 0., .05, .1, .2 });
   // um, as printed there; the first value, printed as 4.0, does not belong to its contact fraction 0.0084: the Gaussian
   // closed form gives S = 2.391, 1.6 um * (S Phi(S) + phi(S)) = 3.83 um.
-  const double d[] = {3.83, 2.78, 2.48, 2.11};
+  const double d[] = { 3.83, 2.78, 2.48, 2.11 };
   for (unsigned int i = 0; i < 4; ++i)
     EXPECT_NEAR(heights.mean_gap(s[i]) / um, d[i], 0.006);
-  EXPECT_NEAR(heights.mean_gap(flattening.monotone_cut_heights(heights, hardening, 10., {.2})[0]) / um, 1.60, 6e-3);
-  EXPECT_NEAR(heights.mean_gap(flattening.monotone_cut_heights(heights, hardening, 20., {.2})[0]) / um, 1.08, 6e-3);
+  EXPECT_NEAR(heights.mean_gap(flattening.monotone_cut_heights(heights, hardening, 10., { .2 })[0]) / um, 1.60, 6e-3);
+  EXPECT_NEAR(heights.mean_gap(flattening.monotone_cut_heights(heights, hardening, 20., { .2 })[0]) / um, 1.08, 6e-3);
 }
-
 
 // At constant hardness the strain is a plain integral over s; for a map (piecewise constant contact fraction) it is the
 // sum over the sorted heights, without any quadrature error.
 TEST(Flattening, StrainIsTheIntegralOverTheHeights)
 {
-  const HeightMap          map = gaussian_map(200, 1.6 * um);
-  const HeightDistribution heights(map);
-  const Flattening         flattening(make_model("Wilson-Sheu"), 25 * um, 0.1);
-  const double             p = 8., k = 200. / std::sqrt(3.);
-  const std::vector<double> strains{0.01, 0.05, 0.1, 0.3};
-  const auto cut = flattening.monotone_cut_heights(heights, ConstantHardening(200.), p, strains);
+  const HeightMap           map = gaussian_map(200, 1.6 * um);
+  const HeightDistribution  heights(map);
+  const Flattening          flattening(make_model("Wilson-Sheu"), 25 * um, 0.1);
+  const double              p = 8., k = 200. / std::sqrt(3.);
+  const std::vector<double> strains{ 0.01, 0.05, 0.1, 0.3 };
+  const auto                cut = flattening.monotone_cut_heights(heights, ConstantHardening(200.), p, strains);
   for (std::size_t i = 0; i < strains.size(); ++i)
     {
       double       eps = 0;
@@ -164,7 +166,6 @@ TEST(Flattening, StrainIsTheIntegralOverTheHeights)
     }
 }
 
-
 // With hardening: against the differential equation ds/d eps = -l/E(alpha(s), P, k(eps)) on the analytic Gaussian
 // distribution, integrated over strain by classical Runge-Kutta steps. It is started at eps = 0.01 because ds/d eps is
 // infinite at 0.
@@ -175,7 +176,7 @@ TEST(Flattening, QuadratureAgreesWithTheDifferentialEquation)
   const PowerHardening     hardening;
   const auto               model = make_model("Wilson-Sheu");
   const Flattening         flattening(model, l, 0.1);
-  std::vector<double>      strains{0.01};
+  std::vector<double>      strains{ 0.01 };
   for (int i = 1; i <= 10; ++i)
     strains.push_back(0.01 + 0.03 * i);
   const auto cut = flattening.monotone_cut_heights(heights, hardening, p, strains);
@@ -190,22 +191,21 @@ TEST(Flattening, QuadratureAgreesWithTheDifferentialEquation)
       const double       h = (strains[i] - strains[i - 1]) / n;
       for (unsigned int j = 0; j < n; ++j, eps += h)
         {
-          const double k1 = slope(eps, s), k2 = slope(eps + h / 2, s + h / 2 * k1), k3 = slope(eps + h / 2, s + h / 2 * k2),
-                       k4 = slope(eps + h, s + h * k3);
+          const double k1 = slope(eps, s), k2 = slope(eps + h / 2, s + h / 2 * k1),
+                       k3 = slope(eps + h / 2, s + h / 2 * k2), k4 = slope(eps + h, s + h * k3);
           s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
         }
       EXPECT_NEAR(cut[i], s, 2e-5 * sq) << "strain " << strains[i]; // 1/n of the map is 1e-6
     }
 }
 
-
 TEST(Flattening, GrowsWithPressureAndStrain)
 {
   const HeightDistribution  heights(gaussian_map(200, 1.6 * um));
   const Flattening          flattening(make_model("Wilson-Sheu"), 25 * um, 0.1);
-  const std::vector<double> strains{0., 0.01, 0.1, 0.5};
+  const std::vector<double> strains{ 0., 0.01, 0.1, 0.5 };
   std::vector<double>       previous(strains.size(), heights.highest());
-  for (const double p : {0.1, 1., 10., 50., 200.}) // 0.1 MPa: 8 of 40000 pixels
+  for (const double p : { 0.1, 1., 10., 50., 200. }) // 0.1 MPa: 8 of 40000 pixels
     {
       const auto s = flattening.monotone_cut_heights(heights, PowerHardening(), p, strains);
       for (std::size_t i = 0; i < strains.size(); ++i)
@@ -223,29 +223,26 @@ TEST(Flattening, GrowsWithPressureAndStrain)
     EXPECT_EQ(s, heights.highest());
 }
 
-
 TEST(Flattening, StrainDoesNothingInModelsWithoutIt)
 {
   const HeightDistribution heights(gaussian_map(100, 1.6 * um));
-  const Flattening flattening(make_model("ideal plastic", "set Hardness over flow stress = 2.8"), 25 * um, 0.1);
-  const auto       s = flattening.monotone_cut_heights(heights, ConstantHardening(200.), 28., {0., 0.1, 0.5});
+  const Flattening         flattening(make_model("ideal plastic", "set Hardness over flow stress = 2.8"), 25 * um, 0.1);
+  const auto               s = flattening.monotone_cut_heights(heights, ConstantHardening(200.), 28., { 0., 0.1, 0.5 });
   EXPECT_NEAR(heights.contact_fraction(s[0]), 0.05, 1e-4); // 28 / (2.8 * 200), to one of 10000 pixels
   EXPECT_EQ(s[1], s[0]);
   EXPECT_EQ(s[2], s[0]);
 }
 
-
 TEST(Flattening, ReadsItsSection)
 {
-  Parameters parameters = Parameters::from_text("set Model = Wilson-Sheu\n"
-                                                "set Asperity half spacing = 25 um\n"
-                                                "set Strain rate = 0.1 1/s\n");
+  Parameters       parameters = Parameters::from_text("set Model = Wilson-Sheu\n"
+                                                            "set Asperity half spacing = 25 um\n"
+                                                            "set Strain rate = 0.1 1/s\n");
   const Flattening flattening = Flattening::read(parameters);
   parameters.finish();
   EXPECT_NEAR(flattening.half_spacing(), 0.025, 1e-15);
   EXPECT_NEAR(flattening.strain_rate(), 0.1, 1e-15);
 }
-
 
 TEST(Flattening, NamesWrongEntries)
 {
@@ -267,12 +264,11 @@ TEST(Flattening, NamesWrongEntries)
     }
 }
 
-
 // Root of a x + (b - a) x^2/(2 L) = amount, checked by inserting it.
 TEST(Flattening, DistanceForAmount)
 {
-  for (const auto &[a, b] : {std::pair{0., 3.}, {2., 2.}, {3., 0.}, {1., 1e6}})
-    for (const double part : {1e-6, 0.3, 0.99})
+  for (const auto &[a, b] : { std::pair{ 0., 3. }, { 2., 2. }, { 3., 0. }, { 1., 1e6 } })
+    for (const double part : { 1e-6, 0.3, 0.99 })
       {
         const double length = 0.7, amount = part * 0.5 * (a + b) * length;
         const double x = distance_for_amount(amount, a, b, length);

@@ -11,7 +11,6 @@ namespace
   const double um = 1e-3;
 }
 
-
 TEST(FrictionTableBuild, CurvesAreExactAtTheirPoints)
 {
   const PairDescription    pair  = test::sample_pair(128);
@@ -25,7 +24,8 @@ TEST(FrictionTableBuild, CurvesAreExactAtTheirPoints)
       EXPECT_EQ(table.curves.contact_fraction[i], heights.contact_fraction(s));
       EXPECT_EQ(table.curves.h_avg[i], heights.mean_gap(s));
     }
-  // Between them: interpolation errors below 0.1 % of the film (0.02 nm where it closes) and 1/256 of the contact fraction.
+  // Between them: interpolation errors below 0.1 % of the film (0.02 nm where it closes) and 1/256 of the contact
+  // fraction.
   for (double s = table.curves.cut_height.front(); s <= heights.highest(); s += 1e-5 * um + 3e-3 * um)
     {
       const auto film = table.film(s);
@@ -33,7 +33,6 @@ TEST(FrictionTableBuild, CurvesAreExactAtTheirPoints)
       EXPECT_NEAR(film.contact_fraction, heights.contact_fraction(s), 4e-3);
     }
 }
-
 
 // Twelve separations of a smooth function are enough for two digits and more.
 TEST(FrictionTableBuild, FlowFactorsAreInterpolated)
@@ -51,7 +50,6 @@ TEST(FrictionTableBuild, FlowFactorsAreInterpolated)
     }
 }
 
-
 // With a smooth tool mu = c0 P0^(m-1), whatever the contact fraction (model.md 2.2), and there is no ploughing.
 TEST(FrictionTableBuild, SmoothToolIsPureShear)
 {
@@ -59,23 +57,23 @@ TEST(FrictionTableBuild, SmoothToolIsPureShear)
   for (const double c : table.ploughing_coefficient.values())
     EXPECT_EQ(c, 0.);
   const double c0 = 11.2 * std::pow(10., -1.5); // MPa^0.25
-  for (const double p : {1., 3., 10., 50.})
-    for (const double s : {0.8 * um, 0.4 * um})
+  for (const double p : { 1., 3., 10., 50. })
+    for (const double s : { 0.8 * um, 0.4 * um })
       {
         const double alpha = table.film(s).contact_fraction, p0 = p / alpha;
-        if (c0 * std::pow(p0, 0.75) < table.shear_strength.value({0.}))
+        if (c0 * std::pow(p0, 0.75) < table.shear_strength.value({ 0. }))
           {
             EXPECT_NEAR(table.solid_shear(s, p, p0, 0.) / p, c0 * std::pow(p0, -0.25), 1e-12);
           }
         // Lubricant pressure adds to the pressure in the layer, not to the load of the solids.
-        EXPECT_NEAR(table.solid_shear(s, p, p0 + 5., 0.) / table.solid_shear(s, p, p0, 0.), std::pow((p0 + 5.) / p0, 0.75),
-                    1e-12);
+        EXPECT_NEAR(table.solid_shear(s, p, p0 + 5., 0.) / table.solid_shear(s, p, p0, 0.),
+                    std::pow((p0 + 5.) / p0, 0.75), 1e-12);
       }
   // Capped at the shear strength, 200/sqrt(3) MPa at no strain.
-  EXPECT_NEAR(table.solid_shear(0.8 * um, 100., 1e5, 0.) / table.film(0.8 * um).contact_fraction, 200. / std::sqrt(3.), 1e-9);
+  EXPECT_NEAR(table.solid_shear(0.8 * um, 100., 1e5, 0.) / table.film(0.8 * um).contact_fraction, 200. / std::sqrt(3.),
+              1e-9);
   EXPECT_EQ(table.solid_shear(0.8 * um, 0., 10., 0.), 0.);
 }
-
 
 TEST(FrictionTableBuild, RoughToolPloughs)
 {
@@ -91,12 +89,12 @@ TEST(FrictionTableBuild, RoughToolPloughs)
     }
   const double alpha = table.film(0.5 * um).contact_fraction;
   EXPECT_NEAR(table.solid_shear(0.5 * um, 20., 20. / alpha, 0.1),
-              alpha * pair.boundary_friction.layer_shear(20. / alpha, 1e9) + 20. * table.ploughing_coefficient.value({20., 0.1}),
+              alpha * pair.boundary_friction.layer_shear(20. / alpha, 1e9)
+                  + 20. * table.ploughing_coefficient.value({ 20., 0.1 }),
               1e-9);
   // The film counts the tool's roughness (T15): larger than with the smooth tool at the same cut height.
   EXPECT_GT(table.film(0.2 * um).h_avg, 1.0001 * HeightDistribution(pair.sheet).mean_gap(0.2 * um));
 }
-
 
 TEST(FrictionTableBuild, NamesDifferentGrids)
 {
@@ -115,11 +113,10 @@ TEST(FrictionTableBuild, NamesDifferentGrids)
     }
 }
 
-
 TEST(FrictionTableBuild, RefusesPressuresThatCloseTheGap)
 {
   PairDescription pair = test::sample_pair(64);
-  pair.axes.pressures  = {1., 2000.};
+  pair.axes.pressures  = { 1., 2000. };
   try
     {
       build_friction_table(pair);
@@ -131,42 +128,47 @@ TEST(FrictionTableBuild, RefusesPressuresThatCloseTheGap)
     }
 }
 
-
-// model.md 9, T21: mean films of the bimodal sheet (Sq 1.60 um, law C, l = 25 um), for which 2.0 g/m^2 (2.232 um) is mixed
-// lubrication at every contact, 0.6 g/m^2 (0.670 um) at none - the regimes of the paper. Printed there for flow stresses of
-// "200-300 MPa": the first two rows are met with 200, the last with 300. The map there was one sample of 1 mm whose crater
-// field had a mean of its own; that of our fields is zero. An offset 0.45 instead of 0.35, plateau fraction 0.673645, is the
-// same map (the mean of 1 mm of a field with 45 um correlation length scatters by 45 um sqrt(2 pi)/1 mm = 0.11).
+// model.md 9, T21: mean films of the bimodal sheet (Sq 1.60 um, law C, l = 25 um), for which 2.0 g/m^2 (2.232 um) is
+// mixed lubrication at every contact, 0.6 g/m^2 (0.670 um) at none - the regimes of the paper. Printed there for flow
+// stresses of "200-300 MPa": the first two rows are met with 200, the last with 300. The map there was one sample of 1
+// mm whose crater field had a mean of its own; that of our fields is zero. An offset 0.45 instead of 0.35, plateau
+// fraction 0.673645, is the same map (the mean of 1 mm of a field with 45 um correlation length scatters by 45 um
+// sqrt(2 pi)/1 mm = 0.11).
 TEST(FrictionTableBuild, RegimesOfThePaper)
 {
   struct Row
   {
     double pressure, flow_stress, h[5];
   };
-  const Row rows[] = {{2., 200., {1.96, 1.64, 1.57, 1.48, 1.43}},
-                      {10., 200., {1.79, 1.42, 1.33, 1.22, 1.14}},
-                      {30., 300., {1.71, 1.31, 1.20, 1.07, .97}}};
+  const Row rows[] = { { 2., 200., { 1.96, 1.64, 1.57, 1.48, 1.43 } },
+                       { 10., 200., { 1.79, 1.42, 1.33, 1.22, 1.14 } },
+                       { 30., 300., { 1.71, 1.31, 1.20, 1.07, .97 } } };
   struct Constant : HardeningLaw
   {
     double stress = 0;
-    FlowStress flow_stress(double, double) const override { return {stress, 0., 0.}; }
+    FlowStress
+    flow_stress(double, double) const override
+    {
+      return { stress, 0., 0. };
+    }
   };
   std::string text = test::bimodal_sheet(666);
   text.replace(text.find("0.636831"), 8, "0.673645");
-  const HeightDistribution heights(test::make_surface(text)), wider(test::make_surface(test::bimodal_sheet(666)));
-  const Flattening         flattening(test::make_model<AsperityModel>("Wilson-Sheu"), 25 * um, 0.1);
-  const std::vector<double> strains{0, .05, .1, .2, .3};
+  const HeightDistribution  heights(test::make_surface(text)), wider(test::make_surface(test::bimodal_sheet(666)));
+  const Flattening          flattening(test::make_model<AsperityModel>("Wilson-Sheu"), 25 * um, 0.1);
+  const std::vector<double> strains{ 0, .05, .1, .2, .3 };
   for (const Row &row : rows)
     {
       Constant hardening;
       hardening.stress = row.flow_stress;
       const auto s     = flattening.monotone_cut_heights(heights, hardening, row.pressure, strains);
       for (unsigned int j = 0; j < 5; ++j)
-        EXPECT_NEAR(heights.mean_gap(s[j]) / um, row.h[j], 0.03 * row.h[j]) << row.pressure << " MPa, strain " << strains[j];
+        EXPECT_NEAR(heights.mean_gap(s[j]) / um, row.h[j], 0.03 * row.h[j])
+            << row.pressure << " MPa, strain " << strains[j];
     }
   // The regimes do not hang on that offset.
-  for (const HeightDistribution *h : {&heights, &wider})
-    for (const double p : {1., 2., 10., 30.})
+  for (const HeightDistribution *h : { &heights, &wider })
+    for (const double p : { 1., 2., 10., 30. })
       for (const double s : flattening.monotone_cut_heights(*h, test::SaturatingHardening(), p, strains))
         {
           EXPECT_LT(h->mean_gap(s) / um, 2.232) << p;

@@ -11,25 +11,29 @@ using namespace tribodraw;
 
 namespace
 {
-  std::string pair_file(const std::string &tool, const std::string &friction_table)
+  std::string
+  pair_file(const std::string &tool, const std::string &friction_table)
   {
     return "subsection Sheet surface\n" + test::bimodal_sheet(64) + "end\n" + //
            "subsection Tool surface\n" + tool + "end\n" +                     //
-           "subsection Flattening\n set Model = Wilson-Sheu\n set Asperity half spacing = 25 um\n set Strain rate = 0.1 1/s\nend\n"
+           "subsection Flattening\n set Model = Wilson-Sheu\n set Asperity half spacing = 25 um\n set Strain rate = "
+           "0.1 1/s\nend\n"
            "subsection Boundary friction\n set Model = power law\n subsection Power law\n"
            "  set c0 = 11.2 Pa^0.25\n  set m = 0.75\n end\nend\n"
-           "subsection Friction table\n" +
-           friction_table +
-           "end\n"
-           "subsection Sheet material\n"
-           " set Young's modulus = 210 GPa\n set Poisson's ratio = 0.3\n set Yield locus = von Mises\n"
-           " set Hardening = Swift\n subsection Swift\n"
-           "  set Strength coefficient = 500 MPa\n  set Initial strain = 0.005\n  set Hardening exponent = 0.22\n end\nend\n";
+           "subsection Friction table\n"
+           + friction_table
+           + "end\n"
+             "subsection Sheet material\n"
+             " set Young's modulus = 210 GPa\n set Poisson's ratio = 0.3\n set Yield locus = von Mises\n"
+             " set Hardening = Swift\n subsection Swift\n"
+             "  set Strength coefficient = 500 MPa\n  set Initial strain = 0.005\n  set Hardening exponent = 0.22\n "
+             "end\nend\n";
   }
 
   const std::string few_points = " set Pressures = 1, 10, 50 MPa\n set Strains = 0, 0.1, 0.4\n set Cut heights = 5\n";
 
-  FrictionTableBuilder read(const std::string &text, const std::string &zone = "")
+  FrictionTableBuilder
+  read(const std::string &text, const std::string &zone = "")
   {
     Parameters           parameters = Parameters::from_text(text);
     FrictionTableBuilder builder    = FrictionTableBuilder::read(parameters, zone);
@@ -37,7 +41,8 @@ namespace
     return builder;
   }
 
-  std::string problems(const std::string &friction_table)
+  std::string
+  problems(const std::string &friction_table)
   {
     try
       {
@@ -59,14 +64,13 @@ namespace
   };
 } // namespace
 
-
 // Built once, found again with the same content; a file that was damaged is built again, not believed.
 TEST(FrictionTableBuilder, KeepsTables)
 {
   const Folder         folder;
-  FrictionTableBuilder first = read(pair_file("set Model = smooth\n", few_points));
+  FrictionTableBuilder first         = read(pair_file("set Model = smooth\n", few_points));
   double               last_progress = 0;
-  const FrictionTable  built = first.load_or_build(folder.path, [&](double done) {
+  const FrictionTable  built         = first.load_or_build(folder.path, [&](double done) {
     EXPECT_GE(done, last_progress);
     last_progress = done;
   });
@@ -90,10 +94,9 @@ TEST(FrictionTableBuilder, KeepsTables)
   EXPECT_EQ(read_file(file), content);
 }
 
-
 TEST(FrictionTableBuilder, FingerprintDependsOnWhatMatters)
 {
-  const std::string base = pair_file("set Model = smooth\n", few_points);
+  const std::string base        = pair_file("set Model = smooth\n", few_points);
   const auto        fingerprint = [](const std::string &text) { return read(text).fingerprint(); };
   const auto        replaced    = [&](const std::string &from, const std::string &to) {
     std::string text = base;
@@ -112,12 +115,13 @@ TEST(FrictionTableBuilder, FingerprintDependsOnWhatMatters)
   EXPECT_EQ(fingerprint("# a comment\n" + base), reference);
 }
 
-
 TEST(FrictionTableBuilder, ReadsToolSurfacesByZone)
 {
-  const std::string zones = "subsection Punch\nset Model = smooth\nend\nsubsection Die\n" + test::ground_tool(64) + "end\n";
-  Parameters        parameters = Parameters::from_text(pair_file(zones, few_points));
-  FrictionTableBuilder punch = FrictionTableBuilder::read(parameters, "Punch"), die = FrictionTableBuilder::read(parameters, "Die");
+  const std::string zones
+      = "subsection Punch\nset Model = smooth\nend\nsubsection Die\n" + test::ground_tool(64) + "end\n";
+  Parameters           parameters = Parameters::from_text(pair_file(zones, few_points));
+  FrictionTableBuilder punch      = FrictionTableBuilder::read(parameters, "Punch"),
+                       die        = FrictionTableBuilder::read(parameters, "Die");
   parameters.finish();
   EXPECT_EQ(punch.tool().size(), 0u);
   EXPECT_EQ(die.tool().size(), 64u * 64u);
@@ -126,7 +130,6 @@ TEST(FrictionTableBuilder, ReadsToolSurfacesByZone)
   const std::string common = pair_file(test::ground_tool(64), few_points);
   EXPECT_EQ(read(common, "Punch").fingerprint(), read(common, "Die").fingerprint());
 }
-
 
 TEST(FrictionTableBuilder, NamesWrongAxes)
 {
@@ -139,7 +142,6 @@ TEST(FrictionTableBuilder, NamesWrongAxes)
   EXPECT_NE(problems(" set Cut hights = 7\n").find("Cut heights"), std::string::npos); // the nearest name is suggested
 }
 
-
 TEST(FrictionTableBuilder, DocumentsItself)
 {
   Parameters parameters = Parameters::for_documentation();
@@ -147,7 +149,7 @@ TEST(FrictionTableBuilder, DocumentsItself)
   std::set<std::string> paths;
   for (const EntryInfo &e : parameters.entries())
     paths.insert(e.path);
-  for (const char *path : {"Friction table/Pressures", "Flattening/Asperity half spacing", "Boundary friction/Power law/c0",
-                           "Tool surface/Die/Model", "Sheet surface/Model"})
+  for (const char *path : { "Friction table/Pressures", "Flattening/Asperity half spacing",
+                            "Boundary friction/Power law/c0", "Tool surface/Die/Model", "Sheet surface/Model" })
     EXPECT_TRUE(paths.count(path)) << path;
 }

@@ -18,22 +18,24 @@ namespace
     std::filesystem::path path;
 
     Folder()
-      : path(std::filesystem::temp_directory_path() /
-             ("tribodraw_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+        : path(std::filesystem::temp_directory_path()
+               / ("tribodraw_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
     {
       std::filesystem::create_directories(path);
     }
     ~Folder() { std::filesystem::remove_all(path); }
   };
 
-  const FrictionTable &sample_table()
+  const FrictionTable &
+  sample_table()
   {
     static const FrictionTable table = build_friction_table(test::sample_pair(64, true));
     return table;
   }
 
   /// The message with which a changed table is refused.
-  std::string refusal(const std::function<void(json &)> &change)
+  std::string
+  refusal(const std::function<void(json &)> &change)
   {
     json j = sample_table().to_json();
     change(j);
@@ -48,7 +50,8 @@ namespace
     return "accepted";
   }
 
-  void expect_refused(const std::function<void(json &)> &change, const std::string &culprit, const std::string &what)
+  void
+  expect_refused(const std::function<void(json &)> &change, const std::string &culprit, const std::string &what)
   {
     const std::string text = refusal(change);
     EXPECT_NE(text.find("table.json"), std::string::npos) << text;
@@ -56,7 +59,6 @@ namespace
     EXPECT_NE(text.find(what), std::string::npos) << text;
   }
 } // namespace
-
 
 TEST(FrictionTableExchange, RoundTripIsBitwise)
 {
@@ -78,22 +80,23 @@ TEST(FrictionTableExchange, RoundTripIsBitwise)
   EXPECT_EQ(read_file(folder.path / "again.csv"), read_file(folder.path / "friction_table.csv"));
 }
 
-
 TEST(FrictionTableExchange, CsvHasTheColumnsOfTheMonotoneLookUp)
 {
   const Folder         folder;
   const FrictionTable &table = sample_table();
   table.write(folder.path / "t.json", folder.path / "t.csv");
-  const CsvData csv = read_csv(folder.path / "t.csv");
-  const std::vector<std::string> columns{"p_solid_mpa", "eps_p", "cut_height_um", "contact_fraction", "h_avg_um", "tau_solid_mpa",
-                                         "mu_boundary", "phi_p_xx", "phi_p_yy", "phi_s_xx", "phi_s_yy"};
+  const CsvData                  csv = read_csv(folder.path / "t.csv");
+  const std::vector<std::string> columns{ "p_solid_mpa", "eps_p",         "cut_height_um", "contact_fraction",
+                                          "h_avg_um",    "tau_solid_mpa", "mu_boundary",   "phi_p_xx",
+                                          "phi_p_yy",    "phi_s_xx",      "phi_s_yy" };
   EXPECT_EQ(csv.columns, columns);
   EXPECT_EQ(csv.rows.size(), 90u); // 10 pressures x 9 strains
   const auto p = csv.numbers("p_solid_mpa"), eps = csv.numbers("eps_p"), s = csv.numbers("cut_height_um"),
-             alpha = csv.numbers("contact_fraction"), tau = csv.numbers("tau_solid_mpa"), mu = csv.numbers("mu_boundary");
+             alpha = csv.numbers("contact_fraction"), tau = csv.numbers("tau_solid_mpa"),
+             mu = csv.numbers("mu_boundary");
   for (std::size_t i = 0; i < p.size(); ++i)
     {
-      EXPECT_NEAR(s[i], 1e3 * table.cut_height_monotone.value({p[i], eps[i]}), 1e-12);
+      EXPECT_NEAR(s[i], 1e3 * table.cut_height_monotone.value({ p[i], eps[i] }), 1e-12);
       EXPECT_NEAR(tau[i], mu[i] * p[i], 1e-12 * tau[i]);
       // per nominal area, with the pressure p/alpha in the boundary layer
       EXPECT_NEAR(tau[i], table.solid_shear(1e-3 * s[i], p[i], p[i] / alpha[i], eps[i]), 1e-9 * tau[i]);
@@ -105,13 +108,12 @@ TEST(FrictionTableExchange, CsvHasTheColumnsOfTheMonotoneLookUp)
     }
 }
 
-
 TEST(FrictionTableExchange, RefusesForeignAndBrokenFiles)
 {
   const Folder folder;
   sample_table().write(folder.path / "good.json", "");
   const std::string good = read_file(folder.path / "good.json");
-  for (const std::string &content : {good.substr(0, good.size() / 2), std::string("p,mu\n1,0.1\n"), std::string()})
+  for (const std::string &content : { good.substr(0, good.size() / 2), std::string("p,mu\n1,0.1\n"), std::string() })
     {
       write_file(folder.path / "bad.json", content);
       try
@@ -131,36 +133,40 @@ TEST(FrictionTableExchange, RefusesForeignAndBrokenFiles)
   expect_refused([](json &j) { j["version"] = 99; }, "version", "99");
 }
 
-
 TEST(FrictionTableExchange, RefusesInconsistentContent)
 {
   EXPECT_EQ(refusal([](json &) {}), "accepted");
   expect_refused([](json &j) { j["tables"].erase("shear_strength"); }, "tables/shear_strength", "lacks");
-  expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"][3] = "thick"; }, "state_curves/h_avg", "not a number");
-  expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"][3] = nullptr; }, "state_curves/h_avg", "not a number");
+  expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"][3] = "thick"; }, "state_curves/h_avg",
+                 "not a number");
+  expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"][3] = nullptr; }, "state_curves/h_avg",
+                 "not a number");
   expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"].erase(3); }, "h_avg", "values");
   expect_refused([](json &j) { j["state_curves"]["h_avg"]["unit"] = "um"; }, "state_curves/h_avg", "`um`");
   expect_refused([](json &j) { j["state_curves"]["h_avg"]["values"][3] = 1.; }, "h_avg", "decrease");
   expect_refused([](json &j) { j["state_curves"]["contact_fraction"]["values"][0] = 1.2; }, "contact fraction", "1.2");
   expect_refused([](json &j) { j["state_curves"]["phi_p_xx"]["values"][0] = -0.5; }, "phi_p_xx", "-0.5");
   expect_refused([](json &j) { j["tables"]["shear_strength"]["values"][0] = -1; }, "shear strength", "greater than 0");
-  expect_refused([](json &j) { j["tables"]["shear_strength"]["values"].push_back(1.); }, "tables/shear_strength", "by its axes");
-  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["values"][5] = 1.; }, "monotone cut height", "increase");
-  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["axes"][0]["points"][0] = 50; }, "axes/1", "increasing");
+  expect_refused([](json &j) { j["tables"]["shear_strength"]["values"].push_back(1.); }, "tables/shear_strength",
+                 "by its axes");
+  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["values"][5] = 1.; }, "monotone cut height",
+                 "increase");
+  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["axes"][0]["points"][0] = 50; }, "axes/1",
+                 "increasing");
   expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["axes"][0]["scale"] = "cubic"; }, "axes/1", "cubic");
-  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["axes"].erase(1); }, "cut_height_monotone", "number of axes");
+  expect_refused([](json &j) { j["tables"]["cut_height_monotone"]["axes"].erase(1); }, "cut_height_monotone",
+                 "number of axes");
   expect_refused([](json &j) { j["tables"]["ploughing_coefficient"]["values"][0] = -1e-3; }, "ploughing", "-0.001");
   expect_refused([](json &j) { j["sq"]["value"] = 0; }, "Sq", "greater than 0");
   expect_refused([](json &j) { j["initial_cut_height"]["value"] = -1; }, "initial cut height", "not below");
   expect_refused([](json &j) { j.erase("provenance"); }, "provenance", "lacks");
 }
 
-
 // A table that is not consistent is never written.
 TEST(FrictionTableExchange, DoesNotWriteNonsense)
 {
   const Folder  folder;
-  FrictionTable table = sample_table();
+  FrictionTable table   = sample_table();
   table.curves.h_avg[2] = std::nan("");
   EXPECT_THROW(table.write(folder.path / "t.json", folder.path / "t.csv"), InputError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path));

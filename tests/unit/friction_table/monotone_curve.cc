@@ -6,10 +6,9 @@
 
 using tribodraw::MonotoneCurve;
 
-
 TEST(MonotoneCurve, GoesThroughItsPointsAndStaysBetweenThem)
 {
-  const std::vector<double> x{0., 1., 1.5, 4., 5., 5.1}, y{0., 0., 3., 3.1, 2., -1.};
+  const std::vector<double> x{ 0., 1., 1.5, 4., 5., 5.1 }, y{ 0., 0., 3., 3.1, 2., -1. };
   const MonotoneCurve       curve(x, y);
   for (std::size_t i = 0; i < x.size(); ++i)
     EXPECT_DOUBLE_EQ(curve(x[i]), y[i]);
@@ -26,15 +25,14 @@ TEST(MonotoneCurve, GoesThroughItsPointsAndStaysBetweenThem)
     }
   EXPECT_EQ(curve(-1.), 0.);
   EXPECT_EQ(curve(9.), -1.);
-  EXPECT_EQ(MonotoneCurve({2.}, {7.})(1.), 7.);
+  EXPECT_EQ(MonotoneCurve({ 2. }, { 7. })(1.), 7.);
 }
-
 
 // Harmonic mean slopes are second order, hence the curve is third order in the middle of a monotone function.
 TEST(MonotoneCurve, ConvergesWithThirdOrder)
 {
   double previous = 0;
-  for (const unsigned int n : {10, 20, 40, 80})
+  for (const unsigned int n : { 10, 20, 40, 80 })
     {
       std::vector<double> x, y;
       for (unsigned int i = 0; i <= n; ++i)

@@ -8,14 +8,16 @@ namespace
 {
   const double um = 1e-3;
 
-  const FrictionTable &sample_table()
+  const FrictionTable &
+  sample_table()
   {
     static const FrictionTable table = build_friction_table(test::sample_pair(128));
     return table;
   }
 
   /// Strain at constant pressure from the undeformed state in steps of @p step.
-  double load_and_strain(const FrictionTable &table, const double p, const double eps, const double step)
+  double
+  load_and_strain(const FrictionTable &table, const double p, const double eps, const double step)
   {
     double     s = table.initial_cut_height;
     const auto n = static_cast<unsigned int>(std::ceil(eps / step));
@@ -27,7 +29,6 @@ namespace
   }
 } // namespace
 
-
 // The increments reproduce the monotone look-up, which is integrated on the map itself, in steps of any size: with 256
 // points of the curves within 0.2 % of Sq at the points of the axes and 0.3 % between them, the error falling with the
 // square of the points (until it meets the steps of the map's distribution, one of 16384 pixels).
@@ -35,19 +36,19 @@ TEST(FrictionTableState, IncrementsReproduceTheMonotoneLookUp)
 {
   PairDescription           pair = test::sample_pair(128);
   const HeightDistribution  heights(pair.sheet);
-  const std::vector<double> strains{0., 0.01, 0.035, 0.15, 0.37, 0.8};
+  const std::vector<double> strains{ 0., 0.01, 0.035, 0.15, 0.37, 0.8 };
   double                    previous = 0;
-  for (const unsigned int n_points : {64, 128, 256})
+  for (const unsigned int n_points : { 64, 128, 256 })
     {
-      pair.axes.n_curve_points    = n_points;
-      const FrictionTable table   = build_friction_table(pair);
+      pair.axes.n_curve_points      = n_points;
+      const FrictionTable table     = build_friction_table(pair);
       double              at_points = 0, between = 0;
-      for (const double step : {0.001, 0.01, 0.1})
+      for (const double step : { 0.001, 0.01, 0.1 })
         for (const double p : table.cut_height_monotone.axes()[0].points)
           for (const double eps : table.cut_height_monotone.axes()[1].points)
-            at_points = std::max(at_points,
-                                 std::abs(load_and_strain(table, p, eps, step) - table.cut_height_monotone.value({p, eps})));
-      for (const double p : {0.7, 1.4, 5.3, 15., 27., 80.})
+            at_points = std::max(at_points, std::abs(load_and_strain(table, p, eps, step)
+                                                     - table.cut_height_monotone.value({ p, eps })));
+      for (const double p : { 0.7, 1.4, 5.3, 15., 27., 80. })
         {
           const auto s = pair.flattening->monotone_cut_heights(heights, *pair.hardening, p, strains);
           for (std::size_t i = 0; i < strains.size(); ++i)
@@ -69,7 +70,6 @@ TEST(FrictionTableState, IncrementsReproduceTheMonotoneLookUp)
     }
 }
 
-
 TEST(FrictionTableState, FlatteningIsNeverUndone)
 {
   const FrictionTable &table = sample_table();
@@ -78,7 +78,7 @@ TEST(FrictionTableState, FlatteningIsNeverUndone)
   EXPECT_EQ(table.advance(s, 5., 0.1, 0.1), s);  // unloading
   EXPECT_EQ(table.advance(s, 0., 0.1, 0.2), s);  // no contact while straining
   EXPECT_EQ(table.advance(s, -1., 0.1, 0.2), s);
-  EXPECT_LT(table.advance(s, 5., 0.1, 0.2), s);  // straining under less load still flattens
+  EXPECT_LT(table.advance(s, 5., 0.1, 0.2), s); // straining under less load still flattens
   EXPECT_GT(table.advance(s, 5., 0.1, 0.2), table.advance(s, 20., 0.1, 0.2));
   // Load alone: twice the load flattens a sheet that was loaded only, not one that was strained as well.
   const double loaded = table.advance(table.initial_cut_height, 20., 0., 0.);
@@ -91,13 +91,12 @@ TEST(FrictionTableState, FlatteningIsNeverUndone)
   EXPECT_NEAR(small, table.advance(s, 20., 0.1, 0.2), 1e-4 * um);
 }
 
-
 TEST(FrictionTableState, SmallPressuresLeadToTheUndeformedSheet)
 {
   const FrictionTable &table = sample_table();
   const double         top = table.initial_cut_height, p_min = table.cut_height_normal.axes()[0].points.front();
   double               previous = table.advance(top, p_min, 0., 0.);
-  for (const double p : {0.5 * p_min, 0.1 * p_min, 1e-3 * p_min, 1e-9 * p_min})
+  for (const double p : { 0.5 * p_min, 0.1 * p_min, 1e-3 * p_min, 1e-9 * p_min })
     {
       const double s = table.advance(top, p, 0., 0.);
       EXPECT_GE(s, previous);
@@ -109,7 +108,6 @@ TEST(FrictionTableState, SmallPressuresLeadToTheUndeformedSheet)
   EXPECT_NEAR(table.advance(top, 1e-9 * p_min, 0., 0.1), top, 1e-6 * um);
   EXPECT_EQ(table.n_outside(), 0u);
 }
-
 
 // More load and strain than the table knows: clamped, finite and counted.
 TEST(FrictionTableState, CountsWhatIsOutside)
@@ -128,13 +126,12 @@ TEST(FrictionTableState, CountsWhatIsOutside)
   EXPECT_EQ(table.film(top + 1.).h_avg, table.film(top).h_avg);
 }
 
-
 // A model without flattening by strain: only the load matters.
 TEST(FrictionTableState, LoadAloneModels)
 {
-  PairDescription pair = test::sample_pair(64);
-  Parameters      parameters =
-    Parameters::from_text("set Model = Pullen-Williamson\nsubsection Pullen-Williamson\nset Hardness over flow stress = 2.8\nend\n");
+  PairDescription pair       = test::sample_pair(64);
+  Parameters      parameters = Parameters::from_text(
+           "set Model = Pullen-Williamson\nsubsection Pullen-Williamson\nset Hardness over flow stress = 2.8\nend\n");
   pair.flattening           = Flattening(parameters.model<AsperityModel>("Model", ""), 25 * um, 0.1);
   const FrictionTable table = build_friction_table(pair);
   const double        s     = table.advance(table.initial_cut_height, 20., 0., 0.);
