@@ -24,15 +24,17 @@ namespace
 
 TEST(BoundedSystem, ComplementaryForAnyPositiveMatrix)
 {
-  // Positive definite, but far from an M-matrix: the plain primal-dual active set can cycle on such matrices.
-  Numbers random;
+  // Positive definite, but far from an M-matrix and nearly singular (rank 5 plus 1e-4): the plain primal-dual active
+  // set cycles on some of these matrices, so that the one-at-a-time steps are needed.
+  unsigned largest_number_of_steps = 0;
+  Numbers  random;
   for (int trial = 0; trial < 200; ++trial)
     {
       const int       n = 30;
-      Eigen::MatrixXd A(n, n);
-      for (int i = 0; i < n * n; ++i)
+      Eigen::MatrixXd A(5, n);
+      for (int i = 0; i < 5 * n; ++i)
         A(i) = random.next();
-      const Eigen::MatrixXd       dense = A.transpose() * A + 1e-3 * Eigen::MatrixXd::Identity(n, n);
+      const Eigen::MatrixXd       dense = A.transpose() * A + 1e-4 * Eigen::MatrixXd::Identity(n, n);
       const BoundedSystem::Matrix K     = dense.sparseView();
       Eigen::VectorXd             f(n), upper(n), x = Eigen::VectorXd::Zero(n);
       for (int i = 0; i < n; ++i)
@@ -47,6 +49,7 @@ TEST(BoundedSystem, ComplementaryForAnyPositiveMatrix)
       system.analyse(K);
       const auto result = system.solve(K, f, upper, set, x);
       ASSERT_TRUE(result.converged) << trial;
+      largest_number_of_steps = std::max(largest_number_of_steps, result.iterations);
       EXPECT_EQ(result.x[3], 0.7);
       const Eigen::VectorXd r = f - dense * result.x;
       for (int i = 0; i < n; ++i)
@@ -64,6 +67,7 @@ TEST(BoundedSystem, ComplementaryForAnyPositiveMatrix)
               }
           }
     }
+  EXPECT_GT(largest_number_of_steps, 20u);
 }
 
 TEST(BoundedSystem, TwoUnknownsByHand)
