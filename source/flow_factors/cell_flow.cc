@@ -1,20 +1,11 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/flow_factors/cell_flow.h>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cmath>
 
 namespace tribodraw
 {
-  struct CellFlow::Factors
-  {
-    using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> ldlt;
-  };
-
   namespace
   {
     double
@@ -55,17 +46,16 @@ namespace tribodraw
   } // namespace
 
   CellFlow::CellFlow(const CellGrid &grid_in, const CellGap &gap, const CellDiscretisation discretisation,
-                     const int driven_axis)
-      : grid(grid_in), factors(std::make_unique<Factors>())
+                     const int driven_axis, const CellSolverChoice choice)
+      : grid(grid_in)
   {
     const CellConnectivity connectivity(grid, gap);
     const std::vector<int> region = connectivity.conducting_regions(driven_axis);
     for (const int axis : { 0, 1 })
       conducting[axis] = connectivity.conducts(axis);
     add_links(gap, region, discretisation, driven_axis);
-    number_unknowns(region);
-    if (n_free > 0)
-      factorise();
+    if (!blocked())
+      solver = std::make_unique<CellSolver>(number_unknowns(region), choice);
   }
 
   CellFlow::~CellFlow() = default;
@@ -101,51 +91,37 @@ namespace tribodraw
       }
   }
 
-  // On a periodic grid the pressure of each region is defined up to a constant: its first pixel is set to zero.
-  void
+  // Each conducting pixel is an unknown. On a periodic grid the pressure of a region is free up to a constant.
+  CellSolver::System
   CellFlow::number_unknowns(const std::vector<int> &region)
   {
+    CellSolver::System system;
+    system.layout.nx       = static_cast<int>(grid.nx);
+    system.layout.ny       = static_cast<int>(grid.ny);
+    system.layout.periodic = grid.periodic;
     unknown.assign(grid.size() + 1, -1);
-    int next = 0, n_pinned = 0;
+    int next = 0, n_floating = 0;
     for (std::size_t i = 0; i < grid.size(); ++i)
       if (region[i] >= 0)
         {
           // regions are numbered in the order of their first pixels
-          if (grid.periodic && region[i] == n_pinned)
-            ++n_pinned;
-          else
-            unknown[i] = next++;
+          if (grid.periodic && region[i] == n_floating)
+            {
+              system.floating.push_back(next);
+              ++n_floating;
+            }
+          system.layout.x.push_back(static_cast<int>(grid.coordinate(static_cast<int>(i), 0)));
+          system.layout.y.push_back(static_cast<int>(grid.coordinate(static_cast<int>(i), 1)));
+          unknown[i] = next++;
         }
-    n_free = static_cast<std::size_t>(next);
-  }
-
-  void
-  CellFlow::factorise()
-  {
-    std::vector<double>                 diagonal(n_free, 0.);
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(links.size() + n_free);
+    n_unknowns = system.size();
+    system.couplings.reserve(links.size());
     for (const Link &link : links)
       {
         const int a = unknown[link.lower], b = unknown[link.upper];
-        if (a >= 0)
-          diagonal[a] += link.conductance;
-        if (b >= 0)
-          diagonal[b] += link.conductance;
-        if (a >= 0 && b >= 0)
-          entries.emplace_back(std::max(a, b), std::min(a, b), -link.conductance);
+        system.couplings.push_back({ std::max(a, b), std::min(a, b), link.conductance });
       }
-    for (std::size_t i = 0; i < n_free; ++i)
-      entries.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal[i]);
-    const auto      n = static_cast<Eigen::Index>(n_free);
-    Factors::Matrix matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    factors->ldlt.compute(matrix);
-    if (factors->ldlt.info() != Eigen::Success)
-      throw ConvergenceError(
-          describe_error("The matrix of a local Reynolds cell could not be factorised", "flow factors",
-                         std::to_string(n_free) + " open pixels", "",
-                         "Raise 'Closed gap' so that channels of vanishing height count as closed."));
+    return system;
   }
 
   // What flows over each face at zero pressure fluctuation.
@@ -159,16 +135,18 @@ namespace tribodraw
     return result;
   }
 
-  // Direct solution with iterative refinement. The correction is kept apart from the first solution: behind a narrow
-  // neck the pressure is a large constant plus small differences, and a single number could not hold both. The
-  // differences of the first solution are exact, those of the correction need no more digits.
+  // Solution with iterative refinement. The correction is kept apart from the first solution: behind a narrow neck the
+  // pressure is a large constant plus small differences, and a single number could not hold both. The differences
+  // of the first solution are exact, those of the correction need no more digits.
   CellFlow::Solution
   CellFlow::solve(const std::vector<double> &drive) const
   {
     // The residual hardly shows the error behind a narrow neck, therefore two steps are always made: the factors are
-    // good to 5 digits at least (the least film is 3e-4 of the roughness), each step gains as many.
-    constexpr unsigned  min_refinements = 2, max_refinements = 4;
-    constexpr double    target = 1e-14; // of the residual, just above rounding
+    // good to 5 digits at least (the least film is 3e-4 of the roughness), each step gains as many. Multigrid is used
+    // where the film is thick, and stops by the energy of the error.
+    const unsigned      min_refinements = solver->is_direct() ? 2 : 1;
+    constexpr unsigned  max_refinements = 4;
+    constexpr double    target          = 1e-14; // of the residual, just above rounding
     Solution            result{ drive, 0., 0 };
     std::vector<double> pressure(unknown.size(), 0.), correction(unknown.size(), 0.), excess(unknown.size());
     const double        scale = norm(drive);
@@ -190,27 +168,26 @@ namespace tribodraw
       result.residual = norm(excess) / scale;
     };
     const auto add_solution = [&](std::vector<double> &to) {
-      Eigen::VectorXd rhs(static_cast<Eigen::Index>(n_free));
-      for (std::size_t i = 0; i < unknown.size(); ++i)
-        if (unknown[i] >= 0)
-          rhs[unknown[i]] = excess[i];
-      rhs = factors->ldlt.solve(rhs).eval();
-      for (std::size_t i = 0; i < unknown.size(); ++i)
-        if (unknown[i] >= 0)
-          to[i] += rhs[unknown[i]];
+      std::size_t     i = 0;
+      Eigen::VectorXd rhs(static_cast<Eigen::Index>(n_unknowns));
+      for (std::size_t cell = 0; cell < grid.size(); ++cell)
+        if (unknown[cell] >= 0)
+          rhs[static_cast<Eigen::Index>(i++)] = excess[cell];
+      const Eigen::VectorXd x = solver->solve(rhs, result.iterations);
+      for (std::size_t cell = 0; cell < grid.size(); ++cell)
+        if (unknown[cell] >= 0)
+          to[cell] += x[unknown[cell]];
     };
 
     update_flux();
-    if (n_free > 0)
-      add_solution(pressure);
+    add_solution(pressure);
     update_flux();
-    while (
-        n_free > 0
-        && (result.refinements < min_refinements || (result.residual > target && result.refinements < max_refinements)))
+    for (unsigned step = 0; step < max_refinements && (step < min_refinements || result.residual > target); ++step)
       {
         add_solution(correction);
         update_flux();
-        ++result.refinements;
+        if (solver->is_direct())
+          ++result.iterations;
       }
     return result;
   }

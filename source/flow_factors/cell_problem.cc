@@ -49,7 +49,7 @@ namespace tribodraw
             = std::max(flow.section_mismatch(pressure, axis) / through, flow.section_mismatch(shear, axis));
         result.flux_error = std::max(result.flux_error, mismatch);
         result.residual   = std::max({ result.residual, pressure.residual, shear.residual });
-        result.iterations = std::max({ result.iterations, pressure.refinements, shear.refinements });
+        result.iterations = std::max({ result.iterations, pressure.iterations, shear.iterations });
       }
 
     private:
@@ -232,8 +232,8 @@ namespace tribodraw
       {
         for (std::size_t i = parallel::rank(); i < n_tasks; i += parallel::size())
           mine.push_back(i);
-        // The factors take some 700 bytes a pixel: of large maps one at a time.
-        constexpr std::size_t large = 2000000;
+        // A solution takes some 1000 bytes a pixel: of large maps one at a time.
+        constexpr std::size_t large = 1000000;
         workers                     = n_pixels < large ? std::min<std::size_t>(parallel::n_threads(), mine.size()) : 1;
       }
 

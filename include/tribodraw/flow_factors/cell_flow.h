@@ -3,6 +3,7 @@
 
 #include <tribodraw/flow_factors/cell_gap.h>
 #include <tribodraw/flow_factors/cell_grid.h>
+#include <tribodraw/flow_factors/cell_solver.h>
 #include <tribodraw/flow_factors/flow_factors.h>
 
 #include <array>
@@ -24,7 +25,8 @@ namespace tribodraw
   {
   public:
     /// @param driven_axis axis whose two boundaries have fixed pressures (ignored on a periodic grid).
-    CellFlow(const CellGrid &grid, const CellGap &gap, CellDiscretisation discretisation, int driven_axis);
+    CellFlow(const CellGrid &grid, const CellGap &gap, CellDiscretisation discretisation, int driven_axis,
+             CellSolverChoice choice = CellSolverChoice::automatic);
     ~CellFlow();
     CellFlow(const CellFlow &)            = delete;
     CellFlow &operator=(const CellFlow &) = delete;
@@ -37,9 +39,9 @@ namespace tribodraw
 
     struct Solution
     {
-      std::vector<double> flux;        ///< over each face, in positive direction of its axis, per unit of mean gap
-      double              residual;    ///< divergence of the flux relative to what drives it (Euclidean norms)
-      unsigned            refinements; ///< steps of iterative refinement
+      std::vector<double> flux;       ///< over each face, in positive direction of its axis, per unit of mean gap
+      double              residual;   ///< divergence of the flux relative to what drives it (Euclidean norms)
+      unsigned            iterations; ///< of conjugate gradients, or of iterative refinement
     };
 
     /// No open way through the cell in any direction of driving: all fluxes are zero.
@@ -65,11 +67,6 @@ namespace tribodraw
     /// driving direction of that pressure flow that sliding along @p axis causes. Independent check of the shear
     /// solution.
     double shear_flux_by_reciprocity(const Solution &pressure_solution, int axis) const;
-    std::size_t
-    n_unknowns() const
-    {
-      return n_free;
-    }
 
   private:
     /// Face between two conducting pixels, or between one and the fixed pressure outside (cell number grid.size()).
@@ -82,19 +79,16 @@ namespace tribodraw
       double carried;     ///< c * width [mm]
     };
 
-    struct Factors;
-
-    const CellGrid          &grid;
-    std::vector<Link>        links;
-    std::vector<int>         unknown; // per cell (and outside); -1: pressure is zero
-    std::size_t              n_free = 0;
-    std::array<bool, 2>      conducting{};
-    std::unique_ptr<Factors> factors;
+    const CellGrid             &grid;
+    std::vector<Link>           links;
+    std::vector<int>            unknown; // per cell, -1: none; last for the outside
+    std::size_t                 n_unknowns = 0;
+    std::array<bool, 2>         conducting{};
+    std::unique_ptr<CellSolver> solver;
 
     void                add_links(const CellGap &gap, const std::vector<int> &region, CellDiscretisation discretisation,
                                   int driven_axis);
-    void                number_unknowns(const std::vector<int> &region);
-    void                factorise();
+    CellSolver::System  number_unknowns(const std::vector<int> &region);
     std::vector<double> drive(int axis, bool shear) const;
     Solution            solve(const std::vector<double> &drive) const;
   };

@@ -168,6 +168,36 @@ TEST(ContactCells, region_across_the_border_of_the_cell_is_not_a_channel)
   EXPECT_NEAR(g.phi_p[0], g.phi_p[1], 1e-12); // all flow is along the diagonal
 }
 
+TEST(ContactCells, multigrid_equals_direct_solution)
+{
+  // Two solvers of the same equations; sizes that do not halve evenly, non-square pixels, with and without contact.
+  HeightMap map = gaussian_map(97, 6, 12);
+  map.ny        = 90;
+  map.dy        = 1.5;
+  map.z.resize(map.nx * map.ny);
+  for (const bool periodic_cell : { true, false })
+    for (const double cut_height : { 4., 1.2 })
+      {
+        const CellGrid         grid = make_cell_grid(map.nx, map.ny, map.dx, map.dy, periodic_cell);
+        const CellGap          gap  = make_cell_gap(map, {}, cut_height, 3e-4);
+        const CellFlow         direct(grid, gap, CellDiscretisation::mean_gap, 0, CellSolverChoice::direct);
+        const CellFlow         multigrid(grid, gap, CellDiscretisation::mean_gap, 0, CellSolverChoice::multigrid);
+        const CellFlow::Window all{ { { 0, 0 } }, { { grid.nx, grid.ny } } };
+        for (const bool shear : { false, true })
+          {
+            const auto flow = [shear](const CellFlow &f) { return shear ? f.shear_flow(0) : f.pressure_flow(0); };
+            const CellFlow::Solution a = flow(direct), b = flow(multigrid);
+            for (const int axis : { 0, 1 })
+              EXPECT_NEAR(direct.mean_flux(a, axis, all), multigrid.mean_flux(b, axis, all), 1e-11);
+            EXPECT_LT(multigrid.section_mismatch(b, 0), 1e-10);
+            EXPECT_LT(b.residual, 1e-12);
+            // conjugate gradients have worked, and did not give up (60) in favour of the factorisation
+            EXPECT_GT(b.iterations, 8u);
+            EXPECT_LT(b.iterations, 50u);
+          }
+      }
+}
+
 TEST(ContactCells, narrow_neck_keeps_its_digits)
 {
   // A pool that hangs on the channel by two pixels of 1e-3 of the film: pressures behind the neck become 1e9 times
