@@ -75,8 +75,9 @@ TEST(PlasticStrip, TensionReproducesTheHardeningCurve)
 {
   for (const auto kind : { Shell::ThicknessPoints::gauss, Shell::ThicknessPoints::lobatto })
     {
-      Strip  strip(kind);
-      double plastic_work = 0, last_eps_p = 0, last_stress = initial;
+      Strip                strip(kind);
+      const PowerHardening law(initial, reference, exponent);
+      double               plastic_work = 0, last_eps_p = 0;
       for (unsigned step = 1; step <= 8; ++step)
         {
           const double elongation = step <= 4 ? 0.004 : 1.;
@@ -94,10 +95,11 @@ TEST(PlasticStrip, TensionReproducesTheHardeningCurve)
               EXPECT_NEAR(strip.shell.node_thickness()[node], thickness, 1e-9);
               EXPECT_NEAR(strip.shell.node_eps_p()[node], eps_p, 1e-9);
             }
-          // Trapezoidal rule over the increment of plastic strain; a rate-independent curve starts from its own stress.
-          plastic_work += 0.5 * (last_stress + stress) * (eps_p - last_eps_p) * length * width * h;
+          // Trapezoidal rule over the increment of plastic strain, from flow stress to flow stress (an elastic step
+          // ends below it).
+          plastic_work
+              += 0.5 * (law.flow_stress(last_eps_p, 1).value + stress) * (eps_p - last_eps_p) * length * width * h;
           last_eps_p                  = eps_p;
-          last_stress                 = stress;
           const double elastic_energy = 0.5 * stress * stress / E * length * width * h;
           const double accuracy       = 1e-7 * (elastic_energy + plastic_work);
           EXPECT_NEAR(strip.shell.plastic_work(), plastic_work, accuracy);
