@@ -41,7 +41,7 @@ namespace tribodraw
       : edge(std::move(free_edge)), tables(std::move(friction_tables)), viscosity_law(std::move(viscosity)),
         settings(lubrication_settings), reynolds(reference, triangles, settings.phi_p_floor),
         patch(reference.size(), triangles), supply(reference.size(), supplied_film), state(reference.size()),
-        slid(reference.size(), Eigen::Vector3d::Zero())
+        slid(reference.size(), Eigen::Vector3d::Zero()), touched(reference.size(), 0.)
   {
     if (tables.empty() || !viscosity_law || edge.size() != reference.size())
       throw InputError(describe_error(
@@ -80,21 +80,22 @@ namespace tribodraw
     std::vector<Node>            nodes = state;
     std::vector<Eigen::Vector3d> slip(nodes.size(), Eigen::Vector3d::Zero());
     std::vector<double>          lubricant(nodes.size(), 0.);
+    const std::vector<int>       table_of = touched_tables(contacts);
+    if (moving)
+      {
+        slip      = mean_slip_velocity();
+        lubricant = lubricant_pressures(state);
+      }
     for (std::size_t i = 0; i < nodes.size(); ++i)
       {
         Node &node         = nodes[i];
         node.supplied_film = supply[i] * reference_area[i] / patch.nodal_area()[i];
         node.eps_p         = contacts[i].eps_p;
-        if (contacts[i].table >= 0)
-          node.table = contacts[i].table;
-        const bool touches    = contacts[i].table >= 0 && nominal[i] >= settings.contact_threshold;
+        if (table_of[i] >= 0)
+          node.table = table_of[i];
+        const bool touches    = table_of[i] >= 0 && nominal[i] >= settings.contact_threshold;
         node.nominal_pressure = touches ? nominal[i] : 0.;
         node.regime           = touches ? Regime::mixed : Regime::no_contact;
-        if (moving)
-          {
-            slip[i]      = slid[i] / elapsed;
-            lubricant[i] = state[i].lubricant_pressure;
-          }
       }
     iterate_film(positions, nodes, contacts, slip, lubricant, moving);
     find_friction(positions, nodes, slip);
@@ -104,8 +105,7 @@ namespace tribodraw
     state               = std::move(nodes);
     ++n_updates;
     find_statistics(elapsed);
-    elapsed = travelled = 0;
-    slid.assign(slid.size(), Eigen::Vector3d::Zero());
+    forget_motion();
     return true;
   }
 
@@ -124,23 +124,6 @@ namespace tribodraw
             "A node of the film has no meaningful contact state", "node " + std::to_string(i),
             "table " + std::to_string(contacts[i].table) + ", pressure " + std::to_string(contacts[i].nominal_pressure)
                 + " MPa, strain " + std::to_string(contacts[i].eps_p)));
-  }
-
-  bool
-  LubricatedFace::accumulate(const std::vector<Contact> &contacts, const Increment &increment)
-  {
-    if (increment.at_rest)
-      {
-        elapsed = travelled = 0;
-        slid.assign(slid.size(), Eigen::Vector3d::Zero());
-        return true;
-      }
-    elapsed += increment.dt;
-    travelled += std::abs(increment.travel);
-    for (std::size_t i = 0; i < slid.size(); ++i)
-      slid[i] += increment.dt * (contacts[i].sheet_velocity - contacts[i].tool_velocity);
-    // Equal steps of the smallest travel shall not miss it by round-off.
-    return elapsed > 0 && travelled >= (1. - 1e-9) * settings.smallest_travel;
   }
 
   void

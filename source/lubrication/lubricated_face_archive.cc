@@ -56,6 +56,7 @@ namespace tribodraw
     archive.put(name + "/motion", std::move(motion));
     archive.put(name + "/figures", std::move(figure));
     archive.put(name + "/supply", supply);
+    archive.put(name + "/touched", touched);
     for (int k = 0; k < 2; ++k)
       archive.put(name + "/earlier pressure " + std::to_string(k + 1),
                   earlier_pressure[k].empty() ? std::vector<double>(state.size(), 0.) : earlier_pressure[k]);
@@ -85,6 +86,7 @@ namespace tribodraw
     elapsed                       = *figure++;
     travelled                     = *figure++;
     n_updates                     = static_cast<unsigned>(*figure++);
+    touched                       = archive.numbers(name + "/touched", n);
     supply                        = archive.numbers(name + "/supply", n);
     for (int k = 0; k < 2; ++k)
       earlier_pressure[k] = archive.numbers(name + "/earlier pressure " + std::to_string(k + 1), n);

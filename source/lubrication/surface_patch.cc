@@ -2,12 +2,25 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+
 namespace tribodraw
 {
   SurfacePatch::SurfacePatch(const std::size_t n_nodes, std::vector<std::array<unsigned, 3>> triangles)
-      : cells(std::move(triangles)), area(n_nodes, 0.), cell_area(cells.size(), 0.),
+      : cells(std::move(triangles)), adjacent(n_nodes), area(n_nodes, 0.), cell_area(cells.size(), 0.),
         normals(n_nodes, Eigen::Vector3d::Zero())
   {
+    for (const auto &t : cells)
+      for (unsigned k = 0; k < 3; ++k)
+        {
+          adjacent[t[k]].push_back(t[(k + 1) % 3]);
+          adjacent[t[k]].push_back(t[(k + 2) % 3]);
+        }
+    for (auto &list : adjacent)
+      {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+      }
   }
 
   void

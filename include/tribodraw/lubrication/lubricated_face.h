@@ -41,14 +41,17 @@ namespace tribodraw
       full       = 3 ///< P_lub has reached P_nom; the gap would open (see opening_rate)
     };
 
-    /// What the face needs to know of a node for one increment.
+    /// What the face needs to know of a node for one increment. Velocities are read where the node touches a tool; a
+    /// node that does not is given the velocity of its neighbours that do, so that the film meets no false jump there.
     struct Contact
     {
-      double          nominal_pressure = 0;  ///< contact force per current area [MPa]
-      int             table            = -1; ///< friction table of the tool the node touches; -1: far from all tools
-      double          eps_p            = 0;  ///< equivalent plastic strain
-      Eigen::Vector3d sheet_velocity   = Eigen::Vector3d::Zero(); ///< mean over the increment [mm/s]
-      Eigen::Vector3d tool_velocity = Eigen::Vector3d::Zero(); ///< of the touched tool, mean over the increment [mm/s]
+      double nominal_pressure = 0; ///< contact force per current area [MPa]
+      /// Friction table of the tool the node touches, -1: none. A node without tool whose neighbours mostly touch one
+      /// (a hole of chattering contact) counts as touching too if the smoothed pressure is above the threshold.
+      int             table          = -1;
+      double          eps_p          = 0;                       ///< equivalent plastic strain
+      Eigen::Vector3d sheet_velocity = Eigen::Vector3d::Zero(); ///< mean over the increment [mm/s]
+      Eigen::Vector3d tool_velocity  = Eigen::Vector3d::Zero(); ///< of the touched tool, mean over the increment [mm/s]
     };
 
     struct Increment
@@ -150,7 +153,8 @@ namespace tribodraw
 
     // motion since the last update of the film
     double                       elapsed = 0, travelled = 0;
-    std::vector<Eigen::Vector3d> slid; ///< sheet minus tool [mm]
+    std::vector<Eigen::Vector3d> slid;    ///< sheet minus tool while touching [mm]
+    std::vector<double>          touched; ///< time of touching [s]
     // lubricant pressures of the last two updates
     std::array<std::vector<double>, 2> earlier_pressure;
     unsigned                           n_updates = 0;
@@ -161,12 +165,15 @@ namespace tribodraw
       return *tables[index];
     }
     void check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const;
-    bool accumulate(const std::vector<Contact> &contacts, const Increment &increment);
-    void iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                      const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                      std::vector<double> lubricant, bool moving);
-    void flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
-                 const std::vector<double> &lubricant) const;
+    void forget_motion();
+    std::vector<Eigen::Vector3d> mean_slip_velocity() const;
+    std::vector<int>             touched_tables(const std::vector<Contact> &contacts) const;
+    bool                         accumulate(const std::vector<Contact> &contacts, const Increment &increment);
+    void                         iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                                              const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
+                                              std::vector<double> lubricant, bool moving);
+    void                         flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
+                                         const std::vector<double> &lubricant) const;
     AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
                                        const std::vector<Eigen::Vector3d> &slip_velocity,
                                        const std::vector<double>          &lubricant) const;

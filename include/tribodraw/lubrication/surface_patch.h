@@ -34,8 +34,16 @@ namespace tribodraw
     /// Integral of nodal values.
     double integral(const std::vector<double> &values) const;
 
+    /// Nodes joined to each node by an edge.
+    const std::vector<std::vector<unsigned>> &
+    neighbours() const
+    {
+      return adjacent;
+    }
+
   private:
     std::vector<std::array<unsigned, 3>> cells;
+    std::vector<std::vector<unsigned>>   adjacent;
     std::vector<double>                  area, cell_area;
     std::vector<Eigen::Vector3d>         normals;
   };

@@ -480,6 +480,43 @@ TEST(LubricatedFace, OpenNodesAndEdges)
   EXPECT_GT(pressurised, 10u);
 }
 
+TEST(LubricatedFace, OpenNodesBringNoFalseVelocityIntoTheFilm)
+{
+  // A caller knows no sliding where nothing touches: zero or the true velocity there must give the same film.
+  Strip strip;
+  strip.wedge(2, 30);
+  for (unsigned n = 0; n < strip.contacts.size(); ++n)
+    if (strip.mesh.nodes[n][0] < 5.5 || strip.mesh.nodes[n][0] > 14.5)
+      {
+        strip.contacts[n].nominal_pressure = 0;
+        strip.contacts[n].table            = -1;
+      }
+  auto with = strip.face(2.23e-3), without = strip.face(2.23e-3);
+  with.update(strip.mesh.nodes, strip.contacts, strip.increment);
+  for (auto &c : strip.contacts)
+    if (c.table < 0)
+      c.sheet_velocity.setZero();
+  without.update(strip.mesh.nodes, strip.contacts, strip.increment);
+  EXPECT_GT(with.statistics().load_share, 0.01);
+  for (std::size_t i = 0; i < strip.contacts.size(); ++i)
+    EXPECT_EQ(with.nodes()[i].lubricant_pressure, without.nodes()[i].lubricant_pressure);
+}
+
+TEST(LubricatedFace, AHoleInTheContactIsBridged)
+{
+  Strip strip;
+  strip.wedge(2, 30);
+  const unsigned hole                   = 4 * 21 + 12;
+  strip.contacts[hole].nominal_pressure = 0;
+  strip.contacts[hole].table            = -1;
+  strip.contacts[hole].sheet_velocity.setZero();
+  auto face = strip.face(2.23e-3);
+  face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+  EXPECT_NE(face.nodes()[hole].regime, Regime::no_contact);
+  EXPECT_GT(face.nodes()[hole].nominal_pressure, 5.);
+  EXPECT_GT(face.nodes()[hole].lubricant_pressure, 0.);
+}
+
 TEST(LubricatedFace, TablesOfSeveralTools)
 {
   // The second table has twice the ploughing; nodes with x > 10 touch its tool.
