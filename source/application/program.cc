@@ -16,6 +16,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <thread>
@@ -243,6 +244,9 @@ namespace tribodraw
   int
   run_program(int argc, char **argv)
   {
+    // Without mpirun, Open MPI would start a daemon for processes that are never spawned: half a second, and an error where
+    // no remote shell is installed. mpirun ignores this setting.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", /*overwrite=*/0);
     // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use.
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, dealii::numbers::invalid_unsigned_int);
     const std::vector<std::string>                 words(argv + 1, argv + argc);

@@ -104,8 +104,11 @@ namespace tribodraw::figures
       for (const char *component : { "xx", "yy", "xy", "yx" })
         {
           const bool diagonal = component[0] == component[1];
-          c.series.push_back({ symbol + component, separation, data.numbers(column + component),
-                               diagonal ? Style::line_with_points : Style::dashed_line });
+          const auto values   = data.numbers(column + component);
+          // Off-diagonal components that a method does not give are zero throughout.
+          if (diagonal || std::any_of(values.begin(), values.end(), [](const double v) { return v != 0; }))
+            c.series.push_back(
+                        { symbol + component, separation, values, diagonal ? Style::line_with_points : Style::dashed_line });
         }
       return c;
     };
@@ -128,7 +131,7 @@ namespace tribodraw::figures
       const auto values = data.numbers(column);
       for (const double level : choose_levels(strain, 6))
         {
-          plot::Series series{ "plastic strain " + short_number(level), {}, {}, Style::line };
+          plot::Series series{ "strain " + short_number(level), {}, {}, Style::line };
           for (std::size_t i = 0; i < values.size(); ++i)
             if (strain[i] == level)
               {

@@ -49,6 +49,7 @@ namespace tribodraw::figures
     struct Column
     {
       std::string name, unit;
+      double      factor = 1; ///< from the column to the unit that is shown
     };
 
     /// The column of a field, with or without its unit.
@@ -57,7 +58,11 @@ namespace tribodraw::figures
     {
       for (const Unit &unit : units)
         if (data.has(field + unit.suffix))
-          return Column{ field + unit.suffix, unit.text };
+          {
+            // Films are some um thick, whatever the file's unit.
+            const bool thin = field.rfind("film_thickness", 0) == 0 && std::string(unit.suffix) == "_mm";
+            return Column{ field + unit.suffix, thin ? " / µm" : unit.text, thin ? 1e3 : 1. };
+          }
       return {};
     }
 
@@ -109,8 +114,8 @@ namespace tribodraw::figures
     /// Draw a field on the plans it is wanted on. @p rasterise paints it on a mesh.
     template <class Rasterise>
     void
-    draw_map(const FinalState &state, const MapInfo &info, const std::string &unit,
-             const std::filesystem::path &folder, const Rasterise &rasterise)
+    draw_map(const FinalState &state, const MapInfo &info, const std::string &unit, const std::filesystem::path &folder,
+             const Rasterise &rasterise)
     {
       const auto draw_on = [&](const plot::PlanMesh &mesh, const std::string &where, const std::string &name) {
         plot::MapChart chart;
@@ -157,8 +162,8 @@ namespace tribodraw::figures
     plot::draw(force, folder / "force_travel");
 
     plot::LineChart draw_in{ "Draw-in of the blank's edge", travel, "Draw-in / mm" };
-    add_history(draw_in, history, "in x (rolling direction)", "draw_in_x_mm");
-    add_history(draw_in, history, "in y", "draw_in_y_mm");
+    add_history(draw_in, history, "x (rolling)", "draw_in_x_mm");
+    add_history(draw_in, history, "y", "draw_in_y_mm");
     add_history(draw_in, history, "diagonal", "draw_in_diagonal_mm");
     plot::draw(draw_in, folder / "draw_in");
 
@@ -184,7 +189,9 @@ namespace tribodraw::figures
     for (const MapInfo &info : node_maps)
       if (const auto column = find_column(state.nodes, info.name))
         {
-          const auto values = state.nodes.numbers(column->name);
+          auto values = state.nodes.numbers(column->name);
+          for (double &v : values)
+            v *= column->factor;
           draw_map(state, info, column->unit, folder,
                    [&](const plot::PlanMesh &mesh) { return plot::rasterise_nodal(mesh, values); });
         }
@@ -213,7 +220,7 @@ namespace tribodraw::figures
       {
         const CsvData flc = read_csv(folder / "flc.csv");
         chart.series.push_back(
-            { "forming limit curve", flc.numbers("minor_strain"), flc.numbers("major_strain"), Style::line });
+            { "limit curve", flc.numbers("minor_strain"), flc.numbers("major_strain"), Style::line });
       }
     plot::draw(chart, folder / "fld");
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 
 namespace tribodraw
 {
@@ -12,16 +13,19 @@ namespace tribodraw
   namespace
   {
     /// Rows of a numeric table as one array, for the checkpoint.
-    std::vector<double> flatten(const CsvTable &table)
+    std::vector<double>
+    flatten(const CsvTable &table)
     {
       std::vector<double> values;
       for (const auto &row : table.rows())
         for (const auto &cell : row)
-          values.push_back(std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell)) : std::get<double>(cell));
+          values.push_back(std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell))
+                                                              : std::get<double>(cell));
       return values;
     }
 
-    void restore(CsvTable &table, const std::vector<double> &values, const std::vector<bool> &is_integer)
+    void
+    restore(CsvTable &table, const std::vector<double> &values, const std::vector<bool> &is_integer)
     {
       table.truncate(0);
       const std::size_t n = is_integer.size();
@@ -37,39 +41,47 @@ namespace tribodraw
         }
     }
 
-    std::vector<bool> last_is_integer(const std::size_t n)
+    std::vector<bool>
+    last_is_integer(const std::size_t n)
     {
       std::vector<bool> integer(n, false);
       integer.back() = true;
       return integer;
     }
 
-    const char *side(const unsigned face)
+    const char *
+    side(const unsigned face)
     {
       return face == static_cast<unsigned>(Face::die_side) ? "die" : "punch";
     }
   } // namespace
 
   HistoryWriter::HistoryWriter(std::filesystem::path output_folder)
-    : folder(std::move(output_folder))
-    , history({"time_s", "punch_travel_mm", "punch_force_n", "die_force_n", "blank_holder_force_n", "draw_in_x_mm", "draw_in_y_mm", "draw_in_diagonal_mm",
-               "min_thickness_mm", "max_eps_p", "max_lubricant_pressure_die_mpa", "max_lubricant_pressure_punch_mpa", "mean_mu_die", "mean_mu_punch",
-               "starved_area_fraction", "lubricant_volume_error", "newton_iterations"})
-    , energy({"time_s", "punch_travel_mm", "increment_mm", "external_work_j", "elastic_energy_j", "plastic_work_j", "friction_work_j", "contact_energy_j",
-              "energy_error", "force_imbalance", "residual", "max_penetration_mm", "newton_iterations"})
-  {}
+      : folder(std::move(output_folder)),
+        history({ "time_s", "punch_travel_mm", "punch_force_n", "die_force_n", "blank_holder_force_n", "draw_in_x_mm",
+                  "draw_in_y_mm", "draw_in_diagonal_mm", "min_thickness_mm", "max_eps_p",
+                  "max_lubricant_pressure_die_mpa", "max_lubricant_pressure_punch_mpa", "mean_mu_die", "mean_mu_punch",
+                  "starved_area_fraction", "lubricant_volume_error", "newton_iterations" }),
+        energy({ "time_s", "punch_travel_mm", "increment_mm", "external_work_j", "elastic_energy_j", "plastic_work_j",
+                 "friction_work_j", "contact_energy_j", "energy_error", "force_imbalance", "residual",
+                 "max_penetration_mm", "newton_iterations" })
+  {
+  }
 
   void
   HistoryWriter::committed(const Simulation &, const IncrementRecord &r)
   {
     const unsigned punch = static_cast<unsigned>(Face::punch_side), die = static_cast<unsigned>(Face::die_side);
     const auto     its = static_cast<long>(r.newton_iterations);
-    history.add_row({r.time, r.punch_travel, r.punch_force, r.die_force, r.blank_holder_force, r.draw_in_x, r.draw_in_y, r.draw_in_diagonal, r.min_thickness,
-                     r.max_eps_p, r.friction.max_lubricant_pressure[die], r.friction.max_lubricant_pressure[punch], r.friction.mean_mu[die],
-                     r.friction.mean_mu[punch], r.friction.starved_area_fraction, r.friction.lubricant_volume_error, its});
+    history.add_row({ r.time, r.punch_travel, r.punch_force, r.die_force, r.blank_holder_force, r.draw_in_x,
+                      r.draw_in_y, r.draw_in_diagonal, r.min_thickness, r.max_eps_p,
+                      r.friction.max_lubricant_pressure[die], r.friction.max_lubricant_pressure[punch],
+                      r.friction.mean_mu[die], r.friction.mean_mu[punch], r.friction.starved_area_fraction,
+                      r.friction.lubricant_volume_error, its });
     const double joule = 1e-3; // 1 N mm
-    energy.add_row({r.time, r.punch_travel, r.increment, joule * r.external_work, joule * r.elastic_energy, joule * r.plastic_work, joule * r.friction_work,
-                    joule * r.contact_energy, r.energy_error(), r.force_imbalance, r.residual, r.max_penetration, its});
+    energy.add_row({ r.time, r.punch_travel, r.increment, joule * r.external_work, joule * r.elastic_energy,
+                     joule * r.plastic_work, joule * r.friction_work, joule * r.contact_energy, r.energy_error(),
+                     r.force_imbalance, r.residual, r.max_penetration, its });
     write();
   }
 
@@ -102,27 +114,28 @@ namespace tribodraw
     restore(energy, archive.numbers("output/energy"), last_is_integer(energy.columns().size()));
   }
 
-  FieldWriter::FieldWriter(std::filesystem::path output_folder, const double distance, std::shared_ptr<const FormingLimitCurve> forming_limit)
-    : folder(std::move(output_folder))
-    , travel_between(distance)
-    , limit(std::move(forming_limit))
-  {}
+  FieldWriter::FieldWriter(std::filesystem::path output_folder, const double distance,
+                           std::shared_ptr<const FormingLimitCurve> forming_limit)
+      : folder(std::move(output_folder)), travel_between(distance), limit(std::move(forming_limit))
+  {
+  }
 
   SurfaceFields
   FieldWriter::collect(const Simulation &simulation) const
   {
     const Shell  &shell = simulation.shell();
     SurfaceFields fields;
-    fields.points    = shell.committed().position;
-    fields.triangles = shell.mesh().triangles;
+    fields.points                    = shell.committed().position;
+    fields.triangles                 = shell.mesh().triangles;
     fields.node_scalars["thickness"] = shell.node_thickness();
     fields.units["thickness"]        = "mm";
-    auto &displacement = fields.node_vectors["displacement"];
+    auto &displacement               = fields.node_vectors["displacement"];
     for (unsigned i = 0; i < shell.n_nodes(); ++i)
       displacement.push_back(fields.points[i] - shell.mesh().nodes[i]);
-    fields.node_vectors["velocity"] = velocity.empty() ? std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero()) : velocity;
-    fields.units["displacement"]    = "mm";
-    fields.units["velocity"]        = "mm/s";
+    fields.node_vectors["velocity"]
+        = velocity.empty() ? std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero()) : velocity;
+    fields.units["displacement"] = "mm";
+    fields.units["velocity"]     = "mm/s";
     for (unsigned f = 0; f < n_faces; ++f)
       {
         const auto &face     = simulation.contact().face(static_cast<Face>(f));
@@ -131,7 +144,8 @@ namespace tribodraw
         for (unsigned i = 0; i < shell.n_nodes(); ++i)
           {
             pressure.push_back(face.pressure[i]);
-            mu.push_back(face.tool[i] >= 0 ? simulation.contact().friction(static_cast<Face>(f))[i] : std::numeric_limits<double>::quiet_NaN());
+            mu.push_back(face.tool[i] >= 0 ? simulation.contact().friction(static_cast<Face>(f))[i]
+                                           : std::numeric_limits<double>::quiet_NaN());
           }
         fields.units[std::string("contact_pressure_") + side(f)] = "MPa";
       }
@@ -143,7 +157,7 @@ namespace tribodraw
         else if (name.find("film_thickness") != std::string::npos)
           fields.units[name] = "mm";
       }
-    const auto elements = shell.element_results();
+    const auto elements                 = shell.element_results();
     fields.cell_scalars["major_strain"] = elements.major_strain;
     fields.cell_scalars["minor_strain"] = elements.minor_strain;
     fields.cell_scalars["eps_p"]        = elements.eps_p;
@@ -195,39 +209,42 @@ namespace tribodraw
     const IncrementRecord &r = simulation.record();
     if (r.time != last_written)
       write_step(simulation, r);
-    if (parallel::rank() == 0)
-      write_final(simulation);
+    write_final(simulation);
   }
 
   void
   FieldWriter::write_final(const Simulation &simulation) const
   {
-    const SurfaceFields fields = collect(simulation);
-    const auto         &start  = simulation.shell().mesh().nodes;
-    std::vector<std::string> columns = {"node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm"};
+    const SurfaceFields      fields  = collect(simulation);
+    const auto              &start   = simulation.shell().mesh().nodes;
+    std::vector<std::string> columns = { "node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm" };
+    const std::map<std::string, std::string> suffixes = {{"mm", "_mm"}, {"MPa", "_mpa"}};
     for (const auto &[name, values] : fields.node_scalars)
-      columns.push_back(name);
+      {
+        const auto unit = fields.units.find(name);
+        columns.push_back(unit == fields.units.end() ? name : name + suffixes.at(unit->second));
+      }
     CsvTable nodes(columns);
     for (std::size_t i = 0; i < fields.points.size(); ++i)
       {
         const Vector3d             &x   = fields.points[i];
-        std::vector<CsvTable::Cell> row = {static_cast<long>(i), x[0], x[1], x[2], start[i][0], start[i][1]};
+        std::vector<CsvTable::Cell> row = { static_cast<long>(i), x[0], x[1], x[2], start[i][0], start[i][1] };
         for (const auto &[name, values] : fields.node_scalars)
           row.emplace_back(values[i]);
         nodes.add_row(row);
       }
     nodes.save(folder / "nodes_final.csv");
 
-    columns = {"element", "n1", "n2", "n3", "major_strain", "minor_strain", "thickness_mm", "eps_p"};
+    columns = { "element", "n1", "n2", "n3", "major_strain", "minor_strain", "thickness_mm", "eps_p" };
     if (limit)
       columns.push_back("flc_margin");
-    CsvTable   elements(columns);
-    const auto results = simulation.shell().element_results();
+    CsvTable elements(columns);
     for (std::size_t e = 0; e < fields.triangles.size(); ++e)
       {
-        const auto                 &t   = fields.triangles[e];
-        std::vector<CsvTable::Cell> row = {static_cast<long>(e), static_cast<long>(t[0]), static_cast<long>(t[1]), static_cast<long>(t[2]),
-                                           results.major_strain[e], results.minor_strain[e], results.thickness[e], results.eps_p[e]};
+        const auto                 &t = fields.triangles[e];
+        std::vector<CsvTable::Cell> row
+            = { static_cast<long>(e),    static_cast<long>(t[0]), static_cast<long>(t[1]), static_cast<long>(t[2]),
+                results.major_strain[e], results.minor_strain[e], results.thickness[e],    results.eps_p[e] };
         if (limit)
           row.emplace_back(fields.cell_scalars.at("flc_margin")[e]);
         elements.add_row(row);
@@ -235,18 +252,18 @@ namespace tribodraw
     elements.save(folder / "elements_final.csv");
     if (!limit)
       return;
-    CsvTable curve({"minor_strain", "major_strain"});
+    CsvTable curve({ "minor_strain", "major_strain" });
     for (int i = -50; i <= 50; ++i)
-      curve.add_row({0.01 * i, limit->limit(0.01 * i)});
+      curve.add_row({ 0.01 * i, limit->limit(0.01 * i) });
     curve.save(folder / "flc.csv");
   }
 
   void
   FieldWriter::save(Archive &archive) const
   {
-    std::vector<double> values = {next_travel, static_cast<double>(step), previous_time, last_written};
+    std::vector<double> values = { next_travel, static_cast<double>(step), previous_time, last_written };
     for (const auto &x : previous_position)
-      values.insert(values.end(), {x[0], x[1], x[2]});
+      values.insert(values.end(), { x[0], x[1], x[2] });
     archive.put("output/fields", values);
   }
 

@@ -31,6 +31,8 @@ namespace tribodraw::plot
                                                     { 0xfd, 0xe7, 0x25 } } };
     constexpr Colour                 no_value = { 0xb8, 0xb8, 0xb8 };
 
+    constexpr unsigned width = 720; ///< of figures, in points
+
     /// Okabe and Ito's colours for lines, told apart by the colour-blind and visible on white and on dark pages.
     constexpr std::array<const char *, 7> line_colours
         = { { "#0080c8", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#888888" } };
@@ -82,7 +84,7 @@ namespace tribodraw::plot
         case Series::Style::points:
           return "with points pt 7 ps 0.5";
         case Series::Style::dots:
-          return "with points pt 7 ps 0.15";
+          return "with points pt 7 ps 0.25";
         case Series::Style::line_with_points:
           return "with linespoints lw 2 pt 7 ps 0.5";
         }
@@ -150,7 +152,7 @@ namespace tribodraw::plot
     const gnuplot::TemporaryFolder folder;
     std::ostringstream             script, curves;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << "set grid lc rgb '#c0c0c0' lw 0.5\n"
-           << "set key bmargin center horizontal Left reverse noautotitle\n";
+           << "set key outside right center vertical Left reverse samplen 1.5 spacing 1.2 noautotitle\n";
     if (chart.logarithmic_x)
       script << "set logscale x\n";
     if (chart.logarithmic_y)
@@ -183,7 +185,7 @@ namespace tribodraw::plot
       }
     if (n_curves == 0)
       return false;
-    return gnuplot::draw(folder, script.str() + curves.str(), 640, chart.equal_axes ? 560 : 420, stem);
+    return gnuplot::draw(folder, script.str() + curves.str(), width, chart.equal_axes ? 560 : 420, stem);
   }
 
   bool
@@ -202,7 +204,8 @@ namespace tribodraw::plot
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << palette() << "set size ratio -1\nset xrange ["
            << text(raster.x_min) << ':' << text(raster.x_max) << "]\nset yrange [" << text(raster.y_min) << ':'
            << text(raster.y_max) << "]\nset cbrange [" << text(range.first) << ':' << text(range.second)
-           << "]\nset cblabel " << gnuplot::quote(chart.value_label) << "\nset colorbox\nplot "
+           << "]\nset lmargin at screen 0.14\nset rmargin at screen 0.8\nset cblabel "
+           << gnuplot::quote(chart.value_label) << "\nset colorbox\nplot "
            << gnuplot::quote((folder.path() / "pixels").string()) << " binary array=(" << raster.nx << ',' << raster.ny
            << ") dx=" << text(dx) << " dy=" << text(dy) << " origin=(" << text(raster.x_min + dx / 2) << ','
            << text(raster.y_min + dy / 2)
@@ -218,9 +221,9 @@ namespace tribodraw::plot
         script << ", \\\n  " << gnuplot::quote((folder.path() / name).string())
                << " using 1:2 with lines lw 1 lc rgb '#808080' notitle";
       }
-    // The height follows the shape of the field; 200 points go to the colour bar, labels and the title.
+    // The field has the width between the margins above; title and labels need the rest of the height.
     const double   aspect = (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
-    const unsigned height = static_cast<unsigned>(std::clamp(440 * aspect + 100, 220., 900.));
-    return gnuplot::draw(folder, script.str(), 640, height, stem);
+    const unsigned height = static_cast<unsigned>(std::clamp((0.8 - 0.14) * width * aspect + 110, 220., 1000.));
+    return gnuplot::draw(folder, script.str(), width, height, stem);
   }
 } // namespace tribodraw::plot
