@@ -10,6 +10,7 @@
 #include <tribodraw/output/figures.h>
 #include <tribodraw/output/report.h>
 
+#include <dlfcn.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -250,6 +251,10 @@ namespace tribodraw
     // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use.
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, dealii::numbers::invalid_unsigned_int);
     const std::vector<std::string>                 words(argv + 1, argv + argc);
+    // The BLAS would start as many threads in each rank and wait for them at full load.
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+      if (auto *set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+        set_threads(static_cast<int>(parallel::n_threads()));
     // Its own communicator, so that the wait of a failing rank meets nothing else.
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);

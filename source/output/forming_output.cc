@@ -215,10 +215,14 @@ namespace tribodraw
   void
   FieldWriter::write_final(const Simulation &simulation) const
   {
-    const SurfaceFields      fields  = collect(simulation);
-    const auto              &start   = simulation.shell().mesh().nodes;
-    std::vector<std::string> columns = { "node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm" };
-    const std::map<std::string, std::string> suffixes = {{"mm", "_mm"}, {"MPa", "_mpa"}};
+    // Both need all ranks; the files are written by the first.
+    const SurfaceFields fields  = collect(simulation);
+    const auto          results = simulation.shell().element_results();
+    if (parallel::rank() != 0)
+      return;
+    const auto                              &start    = simulation.shell().mesh().nodes;
+    std::vector<std::string>                 columns  = { "node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm" };
+    const std::map<std::string, std::string> suffixes = { { "mm", "_mm" }, { "MPa", "_mpa" } };
     for (const auto &[name, values] : fields.node_scalars)
       {
         const auto unit = fields.units.find(name);

@@ -47,8 +47,8 @@ namespace tribodraw
       {
         const HeightMap sheet = make_sheet(), tool = make_tool();
         if (sheet.size() == 0)
-          throw InputError(describe_error("Flow factors need a rough sheet; a smooth tool is possible.",
-                                          "Sheet surface/Model", "smooth"));
+          throw InputError(
+              describe_error("Flow factors need a rough sheet; a smooth tool is possible.", "Sheet surface/Model"));
         const double sq          = std::hypot(roughness(sheet).sq, tool.size() > 0 ? roughness(tool).sq : 0.);
         const auto   cut_heights = cut_heights_for_separations(sheet, tool, sq, separations);
         log::info("Sheet: " + sheet.description);

@@ -37,8 +37,8 @@ namespace tribodraw
       {
         const HeightMap map = make();
         if (map.size() == 0)
-          throw InputError(describe_error("An ideally smooth surface has no roughness to measure.",
-                                          "Sheet surface/Model", "smooth"));
+          throw InputError(
+              describe_error("An ideally smooth surface has no roughness to measure.", "Sheet surface/Model"));
         const Roughness values = roughness(map);
         if (parallel::rank() != 0)
           return;
