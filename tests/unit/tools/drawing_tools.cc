@@ -1,7 +1,6 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/tools/drawing_tools.h>
 #include <tribodraw/tools/plane.h>
-#include <tribodraw/tools/rigid_tool.h>
 
 #include <Eigen/Geometry>
 
@@ -305,12 +304,4 @@ TEST(DrawingTools, BlankHolderFacesDown)
   EXPECT_EQ(d.distance, -2); // 2 mm inside the holder, the body of which is above z = 0
   EXPECT_EQ(d.normal, Vector3d(0, 0, -1));
   EXPECT_EQ(d.curvature, Matrix3d::Zero());
-}
-
-TEST(RigidTool, MovesWithItsPosition)
-{
-  RigidTool holder;
-  holder.geometry = std::make_shared<Plane>(Plane::Facing::down);
-  holder.position = { 0, 0, 0.82 };
-  EXPECT_NEAR(holder.distance({ 1, 2, 0.5 }).distance, 0.32, 1e-15); // 0.82 - 0.5 below the holder
 }
