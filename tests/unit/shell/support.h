@@ -152,7 +152,9 @@ namespace shell_test
       std::vector<double> norms;
       for (unsigned iteration = 0; iteration < 30; ++iteration)
         {
-          assemble(true);
+          // Committed points lie on the yield surface, by round-off on this side or that: the movement of the supports
+          // needs the tangent of those that will flow, or it gathers in elements that happen to be soft.
+          assemble(true, iteration == 0 && jump);
           reaction                   = force - load;
           Eigen::VectorXd unbalanced = reaction;
           const bool      moving     = iteration == 0 && jump;
@@ -190,10 +192,12 @@ namespace shell_test
     Eigen::VectorXd force;
 
     void
-    assemble(bool with_tangent)
+    assemble(bool with_tangent, bool predictor = false)
     {
       K.set_zero();
-      if (!shell.assemble(1., {}, force, with_tangent ? &K : nullptr))
+      Shell::AssemblyOptions options;
+      options.loading_tangent = predictor;
+      if (!shell.assemble(1., options, force, with_tangent ? &K : nullptr))
         throw std::runtime_error("Assembly failed.");
     }
     void
