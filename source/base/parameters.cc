@@ -384,10 +384,12 @@ namespace tribodraw
                       const std::string            &documentation,
                       const std::optional<Default> &default_value)
   {
-    const std::size_t n_infos = data->infos.size();
+    const std::size_t n_infos = data->infos.size(), n_problems = data->problems.size();
     const double      value   = quantity(entry, "", range, documentation, default_value);
     if (data->infos.size() > n_infos)
       data->infos.back().type = "integer";
+    if (data->problems.size() > n_problems)
+      return static_cast<long>(smallest_allowed(range));
     if (value != std::floor(value) || std::abs(value) > 9e15)
       {
         data->complain(entry, "expected a whole number.", units::number(value), range.describe(""), "");

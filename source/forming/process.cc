@@ -62,6 +62,34 @@ namespace tribodraw
     return tools;
   }
 
+  void
+  check_process(Parameters &p, const Blank &blank, const ToolSet &tools)
+  {
+    if (p.has_problems() || p.documentation_mode() || !tools.die || !tools.punch)
+      return;
+    // The blank must cover the opening at both ends of its axes, or the die does not hold it.
+    const double half[2] = {0.5 * blank.length, 0.5 * blank.width};
+    for (int axis = 0; axis < 2; ++axis)
+      {
+        Eigen::Vector3d end = Eigen::Vector3d::Zero();
+        end[axis]           = half[axis];
+        if (tools.die->distance(end).distance > 1e-9) // at the height of the flange
+          p.problem(axis == 0 ? "Blank/Length" : "Blank/Width", "the blank does not reach over the rounded edge of the die.");
+      }
+    const double extent = std::max(half[0], half[1]), gap = plan_clearance(*tools.die, *tools.punch, extent, 0.25);
+    if (gap < blank.thickness)
+      p.problem("Tools",
+                gap < 0 ? "the punch does not fit into the die: they overlap by " + units::format(-gap, "mm") + " in plan."
+                        : "the gap between punch and die is " + units::format(gap, "mm") + ", less than the sheet is thick.",
+                "more than " + units::format(blank.thickness, "mm"), "Raise 'Tools/Die/.../Clearance'.");
+    const double radius = std::min(tools.die->smallest_radius(), tools.punch->smallest_radius());
+    if (blank.element_size > radius)
+      p.problem("Blank/Element size", "the mesh is too coarse for the smallest radius of the tools, " + units::format(radius, "mm") + ".",
+                "at most " + units::format(radius, "mm"), "Half the radius or less gives smooth forces.");
+    else if (blank.element_size > 0.5 * radius)
+      p.warning("'Blank/Element size' is more than half the smallest radius of the tools (" + units::format(radius, "mm") + "): expect ripples in the punch force.");
+  }
+
   std::vector<ContactTool>
   ToolSet::place(const double thickness) const
   {

@@ -47,6 +47,10 @@ namespace tribodraw
     std::vector<ContactTool> place(double thickness) const;
   };
 
+  /// Mistakes that show only when blank, tools and process are seen together: a punch that does not fit the die, a mesh too
+  /// coarse for a radius, a blank smaller than the opening. Recorded in @p parameters; call at the top level.
+  void check_process(Parameters &parameters, const Blank &blank, const ToolSet &tools);
+
   /// Figures of a committed increment, of the full part. One row of history.csv.
   struct IncrementRecord
   {

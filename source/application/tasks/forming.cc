@@ -45,6 +45,7 @@ namespace tribodraw
           const auto scope = p.section("Forming limit");
           limit            = p.model<FormingLimitCurve>("Model", "Forming limit curve of the sheet.");
         }
+        check_process(p, blank, tools);
         {
           const auto scope    = p.section("Output");
           travel_between      = p.quantity("Travel between fields", "mm", Range::positive(), "Punch travel between two VTU steps.",

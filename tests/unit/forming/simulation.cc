@@ -196,3 +196,39 @@ TEST(Forming, WithoutConvergenceTheLastStateIsHandedOverAndExplained)
   EXPECT_TRUE(run.records->ended);
   EXPECT_FALSE(run.records->converged);
 }
+
+// What shows only when blank, tools and process are seen together. Numbers: the die is 74 mm wide with a clearance of 2 mm
+// to the punch of 70 mm; smallest radius 5 mm (die edge).
+TEST(Forming, InconsistentProcessIsExplained)
+{
+  const auto problem = [](const std::vector<std::string> &changes) -> std::string {
+    try
+      {
+        Parameters p  = Parameters::from_text(cup, "cup", changes);
+        const auto in = [&](const char *name, auto read) {
+          const auto scope = p.section(name);
+          return read(p);
+        };
+        const auto blank = in("Blank", Blank::read);
+        in("Sheet material", SheetMaterial::read);
+        const auto tools = in("Tools", ToolSet::read);
+        in("Process", Process::read);
+        check_process(p, blank, tools);
+        p.finish();
+      }
+    catch (const InputError &e)
+      {
+        return e.what();
+      }
+    return "";
+  };
+  const auto has = [](const std::string &text, const std::string &piece) {
+    EXPECT_NE(text.find(piece), std::string::npos) << "'" << piece << "' is not in: " << text;
+  };
+  const std::string fine = "Blank/Element size = 4 mm";
+  EXPECT_EQ(problem({fine}), "");
+  has(problem({}), "too coarse for the smallest radius of the tools, 5 mm");
+  has(problem({fine, "Tools/Die/Square die/Width in x = 71 mm"}), "the gap between punch and die is 0.5 mm, less than the sheet is thick");
+  has(problem({fine, "Tools/Die/Square die/Width in x = 68 mm"}), "overlap by 1 mm");
+  has(problem({fine, "Blank/Width = 80 mm"}), "Blank/Width: the blank does not reach over the rounded edge");
+}
