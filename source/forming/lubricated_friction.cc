@@ -1,3 +1,4 @@
+#include <tribodraw/base/log.h>
 #include <tribodraw/forming/lubricated_friction.h>
 
 #include <algorithm>
@@ -103,7 +104,7 @@ namespace tribodraw
             const auto add     = [&](const char *name, const double value) { result[name + end].push_back(touches ? value : none); };
             add("solid_pressure", node.solid_pressure);
             add("lubricant_pressure", node.lubricant_pressure);
-            add("film_thickness", node.film_thickness);
+            add("film_thickness", 1e3 * node.film_thickness); // um
             add("contact_fraction", node.contact_fraction);
             add("phi_p", 0.5 * node.phi_p.trace());
             add("phi_s", 0.5 * node.phi_s.trace());
@@ -120,6 +121,19 @@ namespace tribodraw
     char        text[160];
     std::snprintf(text, sizeof(text), "film: load share %.2f, starved %.2f, P_lub %.1f MPa", die.load_share, die.starved_area_fraction, die.max_lubricant_pressure);
     return text;
+  }
+
+  void
+  LubricatedFriction::report_end() const
+  {
+    for (unsigned f = 0; f < n_faces; ++f)
+      log::info(std::string("Film at the end, ") + side[f] + " side: " + faces[f]->report());
+    unsigned long outside = 0;
+    for (const auto &table : tables)
+      outside += table->n_outside();
+    if (outside > 0)
+      log::warning(std::to_string(outside) + " look-ups were outside the range of the friction tables and took the value at its end. "
+                   "Extend 'Friction table/Pressures' or 'Friction table/Strains'.");
   }
 
   void

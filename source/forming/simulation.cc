@@ -301,6 +301,7 @@ namespace tribodraw
         write_checkpoint();
       }
     progress.finish();
+    friction->report_end();
   }
 
   void

@@ -49,7 +49,6 @@ namespace tribodraw::figures
     struct Column
     {
       std::string name, unit;
-      double      factor = 1; ///< from the column to the unit that is shown
     };
 
     /// The column of a field, with or without its unit.
@@ -58,11 +57,7 @@ namespace tribodraw::figures
     {
       for (const Unit &unit : units)
         if (data.has(field + unit.suffix))
-          {
-            // Films are some um thick, whatever the file's unit.
-            const bool thin = field.rfind("film_thickness", 0) == 0 && std::string(unit.suffix) == "_mm";
-            return Column{ field + unit.suffix, thin ? " / µm" : unit.text, thin ? 1e3 : 1. };
-          }
+          return Column{ field + unit.suffix, unit.text };
       return {};
     }
 
@@ -189,9 +184,7 @@ namespace tribodraw::figures
     for (const MapInfo &info : node_maps)
       if (const auto column = find_column(state.nodes, info.name))
         {
-          auto values = state.nodes.numbers(column->name);
-          for (double &v : values)
-            v *= column->factor;
+          const auto values = state.nodes.numbers(column->name);
           draw_map(state, info, column->unit, folder,
                    [&](const plot::PlanMesh &mesh) { return plot::rasterise_nodal(mesh, values); });
         }

@@ -155,7 +155,7 @@ namespace tribodraw
         if (name.find("pressure") != std::string::npos)
           fields.units[name] = "MPa";
         else if (name.find("film_thickness") != std::string::npos)
-          fields.units[name] = "mm";
+          fields.units[name] = "um";
       }
     const auto elements                 = shell.element_results();
     fields.cell_scalars["major_strain"] = elements.major_strain;

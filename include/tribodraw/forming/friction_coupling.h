@@ -43,6 +43,8 @@ namespace tribodraw
     virtual std::map<std::string, std::vector<double>> fields() const { return {}; }
     /// Text for the log after each increment (empty: nothing).
     virtual std::string report() const { return ""; }
+    /// Lines for the log at the end of the run; may warn.
+    virtual void        report_end() const {}
     virtual void        save(Archive &) const {}
     virtual void        load(const Archive &) {}
   };

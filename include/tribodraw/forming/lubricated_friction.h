@@ -23,6 +23,7 @@ namespace tribodraw
     Summary     summary() const override;
     std::map<std::string, std::vector<double>> fields() const override;
     std::string report() const override;
+    void        report_end() const override;
     void        save(Archive &archive) const override;
     void        load(const Archive &archive) override;
 
