@@ -127,7 +127,7 @@ namespace tribodraw
         write_file(context.file("run_info.txt"), run_info(parameters, file));
         write_file(context.file("citations.txt"), citations(parameters));
       });
-      log::open_file(context.file("log.txt"));
+      log::open_file(context.file("log.txt"), context.resume);
       log::info(version_text() + " on " + std::to_string(parallel::size())
                 + (parallel::size() == 1 ? " rank" : " ranks") + ", " + std::to_string(parallel::n_threads())
                 + (parallel::n_threads() == 1 ? " thread" : " threads") + " each: " + file.string());

@@ -54,12 +54,12 @@ namespace tribodraw
   {
     void set_level(const Level level) { state().level = level; }
 
-    void open_file(const std::filesystem::path &file)
+    void open_file(const std::filesystem::path &file, const bool append)
     {
       if (parallel::rank() != 0)
         return;
       auto &s = state();
-      s.file.open(file, std::ios::trunc);
+      s.file.open(file, append ? std::ios::app : std::ios::trunc);
       s.file << s.early << std::flush;
       s.early.clear();
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <sstream>
 
 namespace tribodraw
 {
@@ -20,6 +21,23 @@ namespace tribodraw
     /// than the second number by a smaller one (measured: an increment costs about the same whatever its size).
     constexpr unsigned few_iterations = 14, many_iterations = 22;
     constexpr double   growth = 1.4, shrinkage = 0.6;
+
+    /// Throws InputError naming the first line in which the two texts differ.
+    void check_identity(const std::string &checkpoint, const std::string &now)
+    {
+      std::istringstream old_lines(checkpoint), new_lines(now);
+      for (;;)
+        {
+          std::string old_line, new_line;
+          const bool  has_old = static_cast<bool>(std::getline(old_lines, old_line)), has_new = static_cast<bool>(std::getline(new_lines, new_line));
+          if (!has_old && !has_new)
+            return;
+          if (old_line != new_line)
+            throw InputError(describe_error("these parameters must be the same when a run is resumed.", "--resume", "'" + new_line + "'",
+                                            "'" + old_line + "' (of the checkpoint)",
+                                            "Only 'Process/Punch travel' and entries of 'Solver' and 'Output' may change."));
+        }
+    }
 
     const char *const checkpoint_names[2] = {"checkpoint_1.bin", "checkpoint_2.bin"};
   } // namespace
@@ -51,6 +69,7 @@ namespace tribodraw
     long                n_committed = 0;
 
     std::filesystem::path checkpoint_folder;
+    std::string           identity; // parameters that must not change
     double                checkpoint_distance = 0, last_checkpoint = 0;
     unsigned              checkpoint_slot = 0;
 
@@ -321,8 +340,7 @@ namespace tribodraw
     archive.put("simulation/state", std::vector<double>{static_cast<double>(n_committed), static_cast<double>(closed), next_increment, last_checkpoint});
     archive.put("simulation/last force", last_force);
     archive.put("simulation/record", std::vector<double>{r.time, r.punch_travel, r.punch_force, r.die_force, r.blank_holder_force, r.external_work});
-    archive.put("simulation/process", std::vector<double>{process.punch_speed, process.blank_holder_force, blank.length, blank.width, blank.thickness, blank.element_size,
-                                       static_cast<double>(blank.n_thickness_points)});
+    archive.put("simulation/parameters", identity);
     if (parallel::rank() == 0)
       archive.save(checkpoint_folder / checkpoint_names[checkpoint_slot]);
     checkpoint_slot = 1 - checkpoint_slot;
@@ -343,8 +361,9 @@ namespace tribodraw
   }
 
   void
-  Simulation::checkpoint_to(const std::filesystem::path &folder, const double travel_between)
+  Simulation::checkpoint_to(const std::filesystem::path &folder, const double travel_between, const std::string &identity)
   {
+    data->identity            = identity;
     data->checkpoint_folder   = folder;
     data->checkpoint_distance = travel_between;
   }
@@ -378,15 +397,8 @@ namespace tribodraw
       }
     if (newest_count < 0)
       return false;
-    auto      &d = *data;
-    const auto &fixed = newest.numbers("simulation/process", 7);
-    const std::vector<double> now = {d.process.punch_speed, d.process.blank_holder_force, d.blank.length, d.blank.width, d.blank.thickness, d.blank.element_size,
-                                     static_cast<double>(d.blank.n_thickness_points)};
-    const char *const names[] = {"Process/Punch speed", "Process/Blank holder force", "Blank/Length", "Blank/Width", "Blank/Thickness", "Blank/Element size", "Blank/Thickness points"};
-    for (unsigned i = 0; i < now.size(); ++i)
-      if (now[i] != fixed[i])
-        throw InputError(describe_error("this entry must be the same when a run is resumed.", names[i], units::number(now[i]), units::number(fixed[i]) + " (of the checkpoint)",
-                                        "Only 'Process/Punch travel' and entries of 'Solver' and 'Output' may change."));
+    auto &d = *data;
+    check_identity(newest.text("simulation/parameters"), d.identity);
     d.shell.load(newest);
     d.contact.load(newest);
     d.friction->load(newest);

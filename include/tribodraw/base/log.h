@@ -13,8 +13,8 @@ namespace tribodraw
     enum class Level { quiet, normal, debug };
 
     void set_level(Level level);
-    /// Start writing to @p file as well (earlier messages are copied there).
-    void open_file(const std::filesystem::path &file);
+    /// Start writing to @p file as well (earlier messages are copied there). @param append keep what is there (resumed runs)
+    void open_file(const std::filesystem::path &file, bool append = false);
     void close_file();
 
     void info(const std::string &text);

@@ -99,8 +99,10 @@ namespace tribodraw
 
     void add_observer(std::shared_ptr<Observer> observer);
     /// Checkpoints go to this folder every @p travel_between mm; 0: none.
-    void checkpoint_to(const std::filesystem::path &folder, double travel_between);
-    /// Go on from the newest intact checkpoint in the folder. Returns false if there is none.
+    /// @param identity text of all parameters, line by line, that must be the same when the run is resumed
+    void checkpoint_to(const std::filesystem::path &folder, double travel_between, const std::string &identity = "");
+    /// Go on from the newest intact checkpoint in the folder. Returns false if there is none. Throws InputError naming the
+    /// first parameter that differs from the checkpoint's.
     bool resume(const std::filesystem::path &folder);
 
     /// Throws ConvergenceError with a diagnosis after the observers have seen the last state.

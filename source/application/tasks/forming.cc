@@ -8,12 +8,42 @@
 #include <tribodraw/friction_table/builder.h>
 #include <tribodraw/output/forming_output.h>
 
+#include <algorithm>
 #include <array>
+#include <sstream>
 
 namespace tribodraw
 {
   namespace
   {
+    /// The effective parameters as `Section/Entry = value`, one a line, without what a resumed run may change.
+    std::string what_must_not_change(const std::string &effective)
+    {
+      std::istringstream       in(effective);
+      std::vector<std::string> sections;
+      std::string              result;
+      for (std::string line; std::getline(in, line);)
+        {
+          line = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
+          if (line.rfind("subsection ", 0) == 0)
+            sections.push_back(line.substr(11));
+          else if (line == "end")
+            sections.pop_back();
+          else if (line.rfind("set ", 0) == 0)
+            {
+              std::string path;
+              for (const auto &s : sections)
+                path += s + "/";
+              std::istringstream words(line.substr(4));
+              for (std::string word; words >> word;)
+                path += word + " ";
+              if (path.rfind("Solver/", 0) != 0 && path.rfind("Output/", 0) != 0 && path.rfind("Process/Punch travel", 0) != 0)
+                result += path + "\n";
+            }
+        }
+      return result;
+    }
+
     /// Deep drawing: blank, material, tools, process; friction constant or lubricated.
     class FormingTask : public Task
     {
@@ -70,7 +100,7 @@ namespace tribodraw
         Simulation simulation(blank, material, tools, process, settings, std::move(friction));
         simulation.add_observer(std::make_shared<HistoryWriter>(context.output_folder));
         simulation.add_observer(std::make_shared<FieldWriter>(context.output_folder, travel_between, limit));
-        simulation.checkpoint_to(context.output_folder, checkpoint_distance);
+        simulation.checkpoint_to(context.output_folder, checkpoint_distance, what_must_not_change(context.effective_parameters));
         if (context.resume && !simulation.resume(context.output_folder))
           log::warning("There is no checkpoint in " + context.output_folder.string() + "; the run starts from the beginning.");
         simulation.run();

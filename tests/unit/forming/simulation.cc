@@ -148,9 +148,10 @@ TEST(Forming, ResumedRunEndsInTheSameBits)
   const auto folder = std::filesystem::temp_directory_path() / ("forming" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   Drawing whole;
-  whole.simulation->checkpoint_to(folder, 2.);
+  whole.simulation->checkpoint_to(folder, 2., "Blank/Thickness = 0.78 mm\nBlank/Width = 150 mm\n");
   whole.simulation->run();
   Drawing second;
+  second.simulation->checkpoint_to(folder, 0., "Blank/Thickness = 0.78 mm\nBlank/Width = 150 mm\n");
   ASSERT_TRUE(second.simulation->resume(folder));
   const double from = second.simulation->record().punch_travel;
   EXPECT_GT(from, 1.9);
@@ -165,6 +166,7 @@ TEST(Forming, ResumedRunEndsInTheSameBits)
   EXPECT_EQ(whole.simulation->shell().committed().position.back(), second.simulation->shell().committed().position.back());
 
   Drawing other({"Blank/Thickness = 0.8 mm"});
+  other.simulation->checkpoint_to(folder, 0., "Blank/Thickness = 0.8 mm\nBlank/Width = 150 mm\n");
   try
     {
       other.simulation->resume(folder);
