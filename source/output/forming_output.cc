@@ -222,7 +222,7 @@ namespace tribodraw
       return;
     const auto                              &start    = simulation.shell().mesh().nodes;
     std::vector<std::string>                 columns  = { "node", "x_mm", "y_mm", "z_mm", "x0_mm", "y0_mm" };
-    const std::map<std::string, std::string> suffixes = { { "mm", "_mm" }, { "MPa", "_mpa" } };
+    const std::map<std::string, std::string> suffixes = { { "mm", "_mm" }, { "um", "_um" }, { "MPa", "_mpa" } };
     for (const auto &[name, values] : fields.node_scalars)
       {
         const auto unit = fields.units.find(name);
