@@ -17,6 +17,8 @@ SETTINGS = {
 
 def command(program, source, output, changes=()):
     settings = dict(SETTINGS, **dict(changes))
+    if settings.get('Coupling/Friction') == 'constant':
+        settings['Coupling/Constant friction coefficient'] = '0.1'
     words = [program, os.path.join(source, 'prm', 'cross_die.prm'), '--output', output, '--quiet']
     for entry, value in settings.items():
         words += ['--set', f'{entry} = {value}']
