@@ -303,7 +303,6 @@ namespace tribodraw
         const auto outcome                = solver->solve(load);
         if (!outcome.converged)
           {
-            log::debug("Increment of " + units::number(step) + " mm: " + outcome.reason + ".");
             log::info("   " + units::format(record.punch_travel, "mm") + ": " + outcome.reason + " with an increment of " + units::format(step, "mm") + ", halved.");
             next_increment = 0.5 * step;
             if (next_increment < settings.smallest_increment)

@@ -1,4 +1,6 @@
 // The forming loop on a small, coarse square cup: balances, symmetry, restart, and what happens without convergence.
+#include "unit/forming/square_cup.h"
+
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/forming/constant_friction.h>
@@ -15,52 +17,13 @@ using namespace tribodraw;
 
 namespace
 {
-  // NUMISHEET'93 square cup: tools and Swift hardening; isotropic here, so that x and y must agree
-  const std::string cup = R"(
-subsection Blank
-  set Length = 150 mm
-  set Width = 150 mm
-  set Thickness = 0.78 mm
-  set Element size = 9.375 mm
-end
-subsection Sheet material
-  set Young's modulus = 206 GPa
-  set Poisson's ratio = 0.3
-  set Yield locus = von Mises
-  set Hardening = Swift
-  subsection Swift
-    set Strength coefficient = 565.32 MPa
-    set Initial strain = 0.007117
-    set Hardening exponent = 0.2589
-  end
-end
-subsection Tools
-  subsection Die
-    set Model = square die
-    subsection Square die
-      set Width in x = 74 mm
-      set Width in y = 74 mm
-      set Corner radius = 12 mm
-      set Clearance = 0 mm
-      set Edge radius = 5 mm
-    end
-  end
-  subsection Punch
-    set Model = square punch
-    subsection Square punch
-      set Width in x = 70 mm
-      set Width in y = 70 mm
-      set Corner radius = 10 mm
-      set Edge radius = 8 mm
-    end
-  end
-end
-subsection Process
-  set Punch travel = 6 mm
-  set Punch speed = 10 mm/s
-  set Blank holder force = 19.6 kN
-end
-)";
+  /// Coarse, short and isotropic, so that x and y must agree; @p changes come last and win.
+  Parameters coarse_cup(const std::vector<std::string> &changes)
+  {
+    std::vector<std::string> all = {"Blank/Element size = 9.375 mm", "Sheet material/Yield locus = von Mises", "Process/Punch travel = 6 mm"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return Parameters::from_text(square_cup, "cup", all);
+  }
 
   struct Records : Observer
   {
@@ -81,7 +44,7 @@ end
 
     explicit Drawing(const std::vector<std::string> &changes = {}, const double mu = 0.1)
     {
-      Parameters p   = Parameters::from_text(cup, "cup", changes);
+      Parameters p   = coarse_cup(changes);
       const auto in  = [&](const char *name, auto read) {
         const auto scope = p.section(name);
         return read(p);
@@ -206,7 +169,7 @@ TEST(Forming, InconsistentProcessIsExplained)
   const auto problem = [](const std::vector<std::string> &changes) -> std::string {
     try
       {
-        Parameters p  = Parameters::from_text(cup, "cup", changes);
+        Parameters p  = coarse_cup(changes);
         const auto in = [&](const char *name, auto read) {
           const auto scope = p.section(name);
           return read(p);
