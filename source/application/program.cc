@@ -248,6 +248,10 @@ namespace tribodraw
     // Without mpirun, Open MPI would start a daemon for processes that are never spawned: half a second, and an error where
     // no remote shell is installed. mpirun ignores this setting.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", /*overwrite=*/0);
+    // All processes started like that would share one session folder, and the first to end takes it away from one that is
+    // just starting. A single process needs none.
+    if (!getenv("OMPI_COMM_WORLD_SIZE"))
+      setenv("OMPI_MCA_orte_create_session_dirs", "0", /*overwrite=*/0);
     // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use.
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, dealii::numbers::invalid_unsigned_int);
     const std::vector<std::string>                 words(argv + 1, argv + argc);
