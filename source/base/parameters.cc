@@ -223,9 +223,15 @@ namespace tribodraw
 
   // ---------------------------------------------------------------- asking
 
-  Parameters::Scope::Scope(Parameters &p, const std::string &name)
+  Parameters::Scope::Scope(Parameters &p, const std::string &name, const bool from_top)
     : parameters(p)
   {
+    if (from_top)
+      {
+        left.swap(p.data->section);
+        for (std::size_t i = 0; i < left.size(); ++i)
+          p.data->handler.leave_subsection();
+      }
     p.data->section.push_back(name);
     p.data->handler.enter_subsection(name);
   }
@@ -234,6 +240,11 @@ namespace tribodraw
   {
     parameters.data->section.pop_back();
     parameters.data->handler.leave_subsection();
+    for (const std::string &name : left)
+      {
+        parameters.data->section.push_back(name);
+        parameters.data->handler.enter_subsection(name);
+      }
   }
 
   void

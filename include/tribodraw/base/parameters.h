@@ -89,17 +89,20 @@ namespace tribodraw
     class Scope
     {
     public:
-      Scope(Parameters &parameters, const std::string &name);
+      Scope(Parameters &parameters, const std::string &name, bool from_top = false);
       ~Scope();
       Scope(const Scope &)            = delete;
       Scope &operator=(const Scope &) = delete;
 
     private:
-      Parameters &parameters;
+      Parameters              &parameters;
+      std::vector<std::string> left; ///< the sections to come back to
     };
 
     /// Enter a subsection: `const auto scope = parameters.section("Blank");`
     Scope section(const std::string &name) { return Scope(*this, name); }
+    /// Enter a subsection of the top level, wherever we are: for a model that needs a section of the whole file.
+    Scope top_section(const std::string &name) { return Scope(*this, name, /*from_top=*/true); }
 
     bool documentation_mode() const;
     /// True if the file (or --set) gives this entry of the current subsection.

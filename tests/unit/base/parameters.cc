@@ -208,3 +208,19 @@ TEST(Parameters, DocumentationVisitsAllModels)
     }
   EXPECT_EQ(found, 3u);
 }
+
+TEST(Parameters, a_nested_section_can_read_one_of_the_top_level)
+{
+  auto p = Parameters::from_text("subsection A\n set x = 1\n subsection B\n  set y = 2\n  set z = 3\n end\nend\n"
+                                 "subsection C\n set w = 4\nend\n");
+  const auto a = p.section("A");
+  const auto b = p.section("B");
+  EXPECT_EQ(p.integer("y", Range::any(), "y"), 2);
+  {
+    const auto c = p.top_section("C");
+    EXPECT_EQ(p.path(), "C");
+    EXPECT_EQ(p.integer("w", Range::any(), "w"), 4);
+  }
+  EXPECT_EQ(p.path(), "A/B");
+  EXPECT_EQ(p.integer("z", Range::any(), "z"), 3); // back where we were
+}
