@@ -147,11 +147,25 @@ namespace tribodraw
     const unsigned      min_refinements = solver->is_direct() ? 2 : 1;
     constexpr unsigned  max_refinements = 4;
     constexpr double    target          = 1e-14; // of the residual, just above rounding
-    Solution            result{ drive, 0., 0 };
+    Solution            result{ drive, 0., 0, {}, {} };
     std::vector<double> pressure(unknown.size(), 0.), correction(unknown.size(), 0.), excess(unknown.size());
     const double        scale = norm(drive);
+
+    const auto by_cell = [&]() {
+      result.pressure.assign(grid.size(), 0.);
+      for (std::size_t i = 0; i < grid.size(); ++i)
+        result.pressure[i] = pressure[i] + correction[i];
+      for (std::vector<double> &flux : result.upper_flux)
+        flux.assign(grid.size(), 0.);
+      for (std::size_t l = 0; l < links.size(); ++l)
+        if (links[l].lower < static_cast<int>(grid.size()))
+          result.upper_flux[links[l].axis][links[l].lower] = result.flux[l];
+    };
     if (!(scale > 0))
-      return result;
+      {
+        by_cell();
+        return result;
+      }
 
     const auto update_flux = [&]() {
       std::fill(excess.begin(), excess.end(), 0.);
@@ -189,6 +203,7 @@ namespace tribodraw
         if (solver->is_direct())
           ++result.iterations;
       }
+    by_cell();
     return result;
   }
 
@@ -197,7 +212,8 @@ namespace tribodraw
   {
     if (conducts(axis))
       return solve(drive(axis, false));
-    return Solution{ std::vector<double>(links.size(), 0.), 0., 0 };
+    const std::vector<double> zero(grid.size(), 0.);
+    return Solution{ std::vector<double>(links.size(), 0.), 0., 0, zero, { { zero, zero } } };
   }
 
   CellFlow::Solution

@@ -42,6 +42,12 @@ namespace tribodraw
       std::vector<double> flux;       ///< over each face, in positive direction of its axis, per unit of mean gap
       double              residual;   ///< divergence of the flux relative to what drives it (Euclidean norms)
       unsigned            iterations; ///< of conjugate gradients, or of iterative refinement
+      /// Fluctuation of the pressure in each cell, 0 in cells without flow. Its gradient is the deviation from the mean
+      /// gradient; lengths in mm. Free up to a constant in each region of a periodic cell.
+      std::vector<double> pressure;
+      /// The same fluxes by cell: over the upper face of each cell, by axis (periodic: the last face leads to the first
+      /// cell; else there is a flux over the edge of the map only along the driven axis).
+      std::array<std::vector<double>, 2> upper_flux;
     };
 
     /// No open way through the cell in any direction of driving: all fluxes are zero.
