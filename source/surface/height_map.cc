@@ -1,7 +1,9 @@
 #include <tribodraw/base/files.h>
 #include <tribodraw/surface/height_map.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -16,5 +18,12 @@ namespace tribodraw
     std::memcpy(sizes.data(), counts.data(), sizeof(counts));
     std::memcpy(sizes.data() + sizeof(counts), steps.data(), sizeof(steps));
     return hash_text(hash_bytes(sizes.data(), sizes.size()) + hash_bytes(z.data(), z.size() * sizeof(double)));
+  }
+
+  std::size_t
+  n_missing(const HeightMap &map)
+  {
+    return static_cast<std::size_t>(
+        std::count_if(map.z.begin(), map.z.end(), [](const double z) { return std::isnan(z); }));
   }
 } // namespace tribodraw

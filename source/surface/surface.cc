@@ -24,6 +24,15 @@ namespace tribodraw
                                default_value);
     }
 
+    void
+    reject_missing(const HeightMap &map)
+    {
+      if (const std::size_t missing = n_missing(map); missing > 0)
+        throw InputError(describe_error("points of the surface are missing.", map.description,
+                                        std::to_string(missing) + " of " + std::to_string(map.size()), "none",
+                                        "Fill them in the measuring software."));
+    }
+
     /// A wrong unit shows in Sq: real sheet and tool surfaces are between these values.
     void
     warn_if_unusual(const HeightMap &map)
@@ -50,6 +59,7 @@ namespace tribodraw
       if (!source)
         throw InputError(describe_error("the surface is not defined.", section));
       HeightMap map = source->make();
+      reject_missing(map);
       level(map, levelling);
       if (map.size() > 0)
         warn_if_unusual(map);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tribodraw
 {
@@ -68,11 +69,8 @@ namespace tribodraw
                                         std::to_string(raw.nx) + " x " + std::to_string(raw.ny) + " points, "
                                             + std::to_string(raw.z.size()) + " heights",
                                         "at least 2 x 2 points"));
-      const auto missing = std::count_if(raw.z.begin(), raw.z.end(), [](double z) { return std::isnan(z); });
-      if (missing > 0)
-        throw InputError(describe_error("points of the surface are missing.", file,
-                                        std::to_string(missing) + " of " + std::to_string(raw.z.size()), "none",
-                                        "Fill them in the measuring software."));
+      if (std::all_of(raw.z.begin(), raw.z.end(), [](double z) { return std::isnan(z); }))
+        throw InputError(describe_error("all points of the surface are missing.", file));
       const auto infinite = std::count_if(raw.z.begin(), raw.z.end(), [](double z) { return std::isinf(z); });
       if (infinite > 0)
         throw InputError(describe_error("heights of the surface are infinite.", file,
@@ -83,8 +81,14 @@ namespace tribodraw
     void
     check_proportions(const HeightMap &map, const std::string &file)
     {
-      const auto   extremes = std::minmax_element(map.z.begin(), map.z.end());
-      const double range = *extremes.second - *extremes.first, extent = std::max(map.nx * map.dx, map.ny * map.dy);
+      double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+      for (const double z : map.z)
+        if (!std::isnan(z))
+          {
+            lowest  = std::min(lowest, z);
+            highest = std::max(highest, z);
+          }
+      const double range = highest - lowest, extent = std::max(map.nx * map.dx, map.ny * map.dy);
       if (!(range <= extent))
         throw InputError(describe_error("the heights span more than the surface is wide.", file,
                                         units::format(range, "um") + " on " + units::format(extent, "um"), "",

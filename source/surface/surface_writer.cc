@@ -1,3 +1,4 @@
+#include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/surface/surface_writer.h>
@@ -37,6 +38,29 @@ namespace tribodraw
       return text;
     }
   } // namespace
+
+  const std::vector<std::string> &
+  surface_format_names()
+  {
+    static const std::vector<std::string> names{ "csv", "gsf" };
+    return names;
+  }
+
+  void
+  write_surface_file(const HeightMap &map, const std::filesystem::path &file, const std::string &format)
+  {
+    const std::string extension = file.extension().string();
+    const std::string name      = !format.empty() || extension.empty() ? format : extension.substr(1);
+    if (map.size() == 0)
+      throw InputError(describe_error("an empty map cannot be written.", file.string()));
+    if (name == "csv")
+      write_ascii_matrix(map, file);
+    else if (name == "gsf")
+      write_gsf(map, file);
+    else
+      throw InputError(describe_error("the format of a surface file to be written is unknown.", file.string(),
+                                      "`" + name + "`", "csv, gsf"));
+  }
 
   void
   write_gsf(const HeightMap &map, const std::filesystem::path &file)

@@ -8,7 +8,10 @@
 namespace tribodraw
 {
   /// Heights of a surface on a regular grid. Heights point out of the material (towards the counter-surface);
-  /// x is the rolling direction of a sheet. All lengths in mm.
+  /// x is the rolling direction of a sheet, y points up in a picture seen from above. All lengths in mm.
+  ///
+  /// In a map as read from a file a point that was not measured is NaN. Whoever works on heights may rely on
+  /// read_surface(), which fills or refuses such points: maps beyond it are finite.
   struct HeightMap
   {
     std::size_t         nx = 0, ny = 0;   ///< pixels along x and y
@@ -35,6 +38,9 @@ namespace tribodraw
     /// Hash over sizes and heights, for provenance and caching.
     std::string hash() const;
   };
+
+  /// Number of points that were not measured (NaN).
+  std::size_t n_missing(const HeightMap &map);
 } // namespace tribodraw
 
 #endif

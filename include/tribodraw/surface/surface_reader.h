@@ -52,8 +52,9 @@ namespace tribodraw
     virtual RawSurface read(const std::string &content, const std::string &file) const = 0;
   };
 
-  /// Reads a file of any registered format, recognised by its content. Throws InputError unless all points are
-  /// measured and finite and each scale is stated exactly once: by the file or in @p given.
+  /// Reads a file of any registered format, recognised by its content. Points that were not measured are NaN in the
+  /// map. Throws InputError unless all others are finite and each scale is stated exactly once: by the file or in
+  /// @p given.
   HeightMap read_surface_file(const std::filesystem::path &file, const GivenScales &given = {});
 
   /// Length of a unit in mm, or nothing if the text is not a unit of length. The micro sign is understood.

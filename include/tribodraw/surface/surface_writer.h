@@ -4,9 +4,19 @@
 #include <tribodraw/surface/height_map.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace tribodraw
 {
+  /// Names of the formats that can be written: `csv`, `gsf`, `npy`, `sdf` (binary), `sdf ascii`.
+  const std::vector<std::string> &surface_format_names();
+
+  /// Write a map in the named format, or if @p format is empty in the one that the extension names (`.csv`, `.gsf`,
+  /// `.npy`, `.sdf`). Points that were not measured (NaN) are marked as the format does. The file appears complete or
+  /// not at all. Throws InputError for an unknown format, an empty map, and where the format cannot hold the map.
+  void write_surface_file(const HeightMap &map, const std::filesystem::path &file, const std::string &format = "");
+
   /// Gwyddion Simple Field: heights as 32-bit floating point numbers in m, relative error 6e-8.
   void write_gsf(const HeightMap &map, const std::filesystem::path &file);
 

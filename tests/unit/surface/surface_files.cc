@@ -181,6 +181,36 @@ TEST_F(SurfaceFiles, TextMatrixStatesItsScalesInComments)
   EXPECT_DOUBLE_EQ(map(0, 1), 1e-6);
 }
 
+TEST_F(SurfaceFiles, MissingPointsAreNaNAndRefusedByReadSurface)
+{
+  const auto file = write("1 BAD 3\n4 nan 6\n");
+  const auto map  = read_surface_file(file, both);
+  EXPECT_EQ(n_missing(map), 2u);
+  EXPECT_TRUE(std::isnan(map(1, 0)));
+  EXPECT_TRUE(std::isnan(map(1, 1)));
+  EXPECT_DOUBLE_EQ(map(2, 0), 6e-3);
+  EXPECT_EQ(n_missing(read_surface_file(write("1;;3\n4;5;6\n"), both)), 1u);
+  EXPECT_EQ(
+      n_missing(read_surface_file(write(gsf("XRes = 3\nYRes = 2\n" + size_of_gsf + units_of_gsf,
+                                            floats({ 1e-6f, std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0 }))))),
+      1u);
+
+  auto       parameters = Parameters::from_text("set Model = file\nset Levelling = mean\nsubsection File\nset Path = "
+                                                + write("1 BAD 3\n4 nan 6\n").string()
+                                                + "\nset Pixel size = 3 um\nset Height unit = um\nend\n");
+  const auto surface    = read_surface(parameters);
+  parameters.finish();
+  try
+    {
+      surface();
+      ADD_FAILURE() << "accepted";
+    }
+  catch (const InputError &e)
+    {
+      EXPECT_NE(std::string(e.what()).find("2 of 6"), std::string::npos) << e.what();
+    }
+}
+
 TEST_F(SurfaceFiles, RoundTrips)
 {
   const auto     map  = some_map();
@@ -235,7 +265,7 @@ TEST_F(SurfaceFiles, MalformedGsfIsRejected)
     { gsf(sizes + units_of_gsf, data), "set `Pixel size`" },
     { gsf(head + "nonsense\n", data), "line 8" },
     { gsf(head + "XRes = 4\n", data), "occurs twice" },
-    { gsf(head, floats({ 1e-6f, nan, 0, nan, 0, 0 })), "2 of 6" },
+    { gsf(head, floats({ nan, nan, nan, nan, nan, nan })), "all points of the surface are missing" },
     { gsf(head, floats({ 1e-6f, infinity, 0, 0, 0, 0 })), "infinite" },
     { gsf(head, floats({ 1, 2, 3, 4, 5, 6 })), "span more than the surface is wide" },
     { gsf(head, floats({ 1, 1, 1, 1, 1, 1 })), "equal" },
@@ -282,9 +312,8 @@ TEST_F(SurfaceFiles, MalformedTextIsRejected)
     { "1,5 2,5 3,5\n4,5 5,5 6,5\n", "decimal" },
     { "1,5;2,5\n3,5;4,5\n", "decimal commas" },
     { "1,5\t2,5\n3,5\t4,5\n", "`5\t2`" },
-    { "1 BAD 3\n4 nan 6\n", "2 of 6" },
+    { "BAD nan\n*** ---\n", "all points of the surface are missing" },
     { "1;;3\n4;5;\n", "differ in length" },
-    { "1;;3\n4;5;6\n", "1 of 6" },
     { "1 inf 3\n4 5 6\n", "infinite" },
     { "1 1e999 3\n4 5 6\n", "`1e999`" },
     { "1 2 3\n", "at least 2 x 2" },
