@@ -189,38 +189,6 @@ namespace tribodraw
                                         "at least 10 x 10"));
     }
 
-    // Numbers of one result, in a fixed order, for the exchange between ranks.
-    constexpr std::size_t n_packed = 14;
-
-    void
-    pack(const FlowFactors &f, double *to)
-    {
-      *to++ = f.cut_height;
-      *to++ = f.h_avg;
-      *to++ = f.contact_fraction;
-      to    = std::copy(f.phi_p.begin(), f.phi_p.end(), to);
-      to    = std::copy(f.phi_s.begin(), f.phi_s.end(), to);
-      *to++ = f.residual;
-      *to++ = f.flux_error;
-      *to   = f.iterations;
-    }
-
-    FlowFactors
-    unpack(const double *from)
-    {
-      FlowFactors f;
-      f.cut_height       = *from++;
-      f.h_avg            = *from++;
-      f.contact_fraction = *from++;
-      std::copy(from, from + 4, f.phi_p.begin());
-      std::copy(from + 4, from + 8, f.phi_s.begin());
-      from += 8;
-      f.residual   = *from++;
-      f.flux_error = *from++;
-      f.iterations = static_cast<unsigned>(*from);
-      return f;
-    }
-
     // Separations are independent: rank r takes r, r + size, ...; the threads of a rank fetch theirs one by one, as
     // the first ones (little contact) take much longer than the last. Each is computed whole by one thread, so
     // the result does not depend on the distribution.
@@ -289,20 +257,22 @@ namespace tribodraw
       const bool     periodic = settings.boundary_conditions == CellBoundaryConditions::periodic;
       const CellGrid grid     = make_cell_grid(sheet.nx, sheet.ny, sheet.dx, sheet.dy, periodic);
 
-      std::vector<double> packed(n_packed * cut_heights.size(), 0.);
+      const std::size_t   n_numbers = FlowFactors::n_numbers();
+      std::vector<double> packed(n_numbers * cut_heights.size(), 0.);
       Distribution        distribution(cut_heights.size(), grid.size(), progress);
       distribution.run([&](const std::size_t i) {
         const CellGap gap    = make_cell_gap(sheet, tool, cut_heights[i], closed_gap * sq_reference);
         FlowFactors   result = solve_cell_problem(grid, gap, settings, sq_reference);
         result.cut_height    = cut_heights[i];
         check_quality(result);
-        pack(result, &packed[n_packed * i]);
+        const std::vector<double> numbers = result.numbers();
+        std::copy(numbers.begin(), numbers.end(), &packed[n_numbers * i]);
       });
       parallel::sum(packed);
 
       std::vector<FlowFactors> results;
       for (std::size_t i = 0; i < cut_heights.size(); ++i)
-        results.push_back(unpack(&packed[n_packed * i]));
+        results.push_back(FlowFactors::from_numbers(&packed[n_numbers * i]));
       return results;
     }
   } // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <type_traits>
 
 namespace tribodraw
 {
@@ -32,6 +33,57 @@ namespace tribodraw
       return settings;
     }
   } // namespace
+
+  namespace
+  {
+    // Calls action(number) for every number of the result; Factors is FlowFactors or const FlowFactors.
+    template <class Factors, class Action>
+    void
+    for_each_number(Factors &f, const Action &action)
+    {
+      action(f.cut_height);
+      action(f.h_avg);
+      action(f.contact_fraction);
+      for (auto *components :
+           { &f.phi_p, &f.phi_s, &f.phi_p_lower, &f.phi_p_upper, &f.phi_s_lower, &f.phi_s_upper })
+        for (auto &component : *components)
+          action(component);
+      for (auto *components :
+           { &f.phi_p_quarter_mean, &f.phi_p_quarter_sd, &f.phi_s_quarter_mean, &f.phi_s_quarter_sd })
+        for (auto &component : *components)
+          action(component);
+      action(f.residual);
+      action(f.flux_error);
+      action(f.iterations);
+      action(f.bounded);
+      action(f.quartered);
+    }
+  } // namespace
+
+  std::vector<double>
+  FlowFactors::numbers() const
+  {
+    std::vector<double> result;
+    for_each_number(*this, [&result](const auto &number) { result.push_back(static_cast<double>(number)); });
+    return result;
+  }
+
+  FlowFactors
+  FlowFactors::from_numbers(const double *numbers)
+  {
+    FlowFactors result;
+    for_each_number(result, [&numbers](auto &number) {
+      number = static_cast<std::remove_reference_t<decltype(number)>>(*numbers++);
+    });
+    return result;
+  }
+
+  std::size_t
+  FlowFactors::n_numbers()
+  {
+    static const std::size_t n = FlowFactors().numbers().size();
+    return n;
+  }
 
   std::unique_ptr<FlowFactorModel>
   read_flow_factors(Parameters &parameters)

@@ -25,6 +25,20 @@ namespace tribodraw
     double                residual   = 0; ///< relative residual of the worst linear solve
     double                flux_error = 0; ///< relative mismatch of the flux through opposite sides
     unsigned              iterations = 0;
+
+    /// Guaranteed enclosures of both factors of the gap that is constant in each pixel (cell_bounds.h), mean over the
+    /// whole map.
+    bool                  bounded = false;
+    std::array<double, 4> phi_p_lower{}, phi_p_upper{}, phi_s_lower{}, phi_s_upper{};
+
+    /// Mean and standard deviation of the factors of the four quarters of the map at the same mean gap: components xx, yy.
+    bool                  quartered = false;
+    std::array<double, 2> phi_p_quarter_mean{}, phi_p_quarter_sd{}, phi_s_quarter_mean{}, phi_s_quarter_sd{};
+
+    /// All numbers in a fixed order, for the exchange between ranks.
+    std::vector<double> numbers() const;
+    static FlowFactors  from_numbers(const double *numbers);
+    static std::size_t  n_numbers();
   };
 
   /// Conditions at the sides of a local Reynolds cell.
@@ -46,6 +60,8 @@ namespace tribodraw
   {
     CellBoundaryConditions boundary_conditions = CellBoundaryConditions::periodic;
     CellDiscretisation     discretisation      = CellDiscretisation::mean_gap;
+    bool                   error_bounds        = false; ///< fill FlowFactors::phi_p_lower ...
+    bool                   quarter_maps        = false; ///< fill FlowFactors::phi_p_quarter_mean ...
   };
 
   /// Flow factors as functions of the separation for a pair of surfaces: cell problem, published fits.
