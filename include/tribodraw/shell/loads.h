@@ -87,6 +87,9 @@ namespace tribodraw
     /// Mirror plane with the normal x, y or z (0, 1, 2): no displacement across and the director stays in the plane.
     /// The directors must lie in the plane now. A node may lie on two planes.
     void mirror(const NodeSet &nodes, unsigned axis);
+    /// Hold the director's increment along @p axis (its part perpendicular to the director): no turning in that
+    /// direction. Two different directions at one node hold the director altogether.
+    void hold_director(unsigned node, const Eigen::Vector3d &axis);
     /// Prescribed motion of a component: @p value at factor one.
     void prescribe(const NodeSet &nodes, unsigned component, double value);
 
@@ -104,9 +107,6 @@ namespace tribodraw
     }
 
   private:
-    /// Hold the director's increment along @p axis.
-    void hold_director(unsigned node, const Eigen::Vector3d &axis);
-
     Shell            &shell;
     std::vector<bool> is_fixed;
     Eigen::VectorXd   value;
