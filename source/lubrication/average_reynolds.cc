@@ -1,4 +1,5 @@
 #include "film_geometry.h"
+#include "film_terms.h"
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/timing.h>
@@ -12,56 +13,6 @@
 
 namespace tribodraw
 {
-  namespace
-  {
-    /// Symmetric part of PhiP with eigenvalues not below the floor.
-    Eigen::Matrix2d
-    bounded_from_below(const Eigen::Matrix2d &phi, const double floor)
-    {
-      const double    mean = 0.5 * (phi(0, 0) + phi(1, 1)), half = 0.5 * (phi(0, 0) - phi(1, 1));
-      const double    off    = 0.5 * (phi(0, 1) + phi(1, 0));
-      const double    radius = std::hypot(half, off);
-      Eigen::Matrix2d symmetric;
-      symmetric << phi(0, 0), off, off, phi(1, 1);
-      if (mean - radius >= floor)
-        return symmetric;
-      const double upper = std::max(mean + radius, floor), lower = floor;
-      const double c = radius > 0 ? half / radius : 0., s = radius > 0 ? off / radius : 0.;
-      const double m = 0.5 * (upper + lower), d = 0.5 * (upper - lower);
-      symmetric << m + d * c, d * s, d * s, m - d * c;
-      return symmetric;
-    }
-
-    /// The nodal data as they are integrated.
-    struct Coefficient
-    {
-      double          film = 0, fluidity = 0, squeeze = 0;     // fluidity: 1/(12 eta)
-      Eigen::Vector3d phi_p         = Eigen::Vector3d::Zero(); // xx, yy, xy
-      Eigen::Matrix2d sq_phi_s      = Eigen::Matrix2d::Zero();
-      Eigen::Vector3d mean_velocity = Eigen::Vector3d::Zero(), half_slip = Eigen::Vector3d::Zero();
-
-      Coefficient &
-      operator+=(const Coefficient &other)
-      {
-        film += other.film;
-        fluidity += other.fluidity;
-        squeeze += other.squeeze;
-        phi_p += other.phi_p;
-        sq_phi_s += other.sq_phi_s;
-        return *this;
-      }
-      void
-      scale(const double factor)
-      {
-        film *= factor;
-        fluidity *= factor;
-        squeeze *= factor;
-        phi_p *= factor;
-        sq_phi_s *= factor;
-      }
-    };
-  } // namespace
-
   struct AverageReynolds::Implementation
   {
     FilmGeometry                    geometry;
@@ -100,41 +51,23 @@ namespace tribodraw
       system.analyse(matrix);
     }
 
-    static bool
-    has_film(const NodeData &node)
-    {
-      return node.film > 0 && node.viscosity > 0;
-    }
-
-    std::vector<Coefficient>
+    std::vector<FilmCoefficient>
     coefficients(const std::vector<NodeData> &nodes) const
     {
-      const std::size_t n_nodes = geometry.n_nodes();
-      if (nodes.size() != n_nodes)
+      if (nodes.size() != geometry.n_nodes())
         throw InputError(describe_error("Wrong number of nodal data for the film", "average Reynolds equation",
-                                        std::to_string(nodes.size()), std::to_string(n_nodes)));
-      std::vector<Coefficient> result(n_nodes);
-      for (std::size_t i = 0; i < n_nodes; ++i)
+                                        std::to_string(nodes.size()), std::to_string(geometry.n_nodes())));
+      std::vector<FilmCoefficient> result;
+      result.reserve(nodes.size());
+      for (const NodeData &node : nodes)
         {
-          const NodeData &node = nodes[i];
-          Coefficient    &c    = result[i];
-          c.mean_velocity      = 0.5 * (node.sheet_velocity + node.tool_velocity);
-          c.half_slip          = 0.5 * (node.sheet_velocity - node.tool_velocity);
-          if (has_film(node))
-            {
-              const Eigen::Matrix2d phi = bounded_from_below(node.phi_p, phi_p_floor);
-              c.film                    = node.film;
-              c.fluidity                = 1. / (12. * node.viscosity);
-              c.squeeze                 = node.squeeze;
-              c.phi_p                   = { phi(0, 0), phi(1, 1), phi(0, 1) };
-              c.sq_phi_s                = node.sq_phi_s;
-            }
-          else if (!node.fixed)
-            throw InputError(describe_error("A node that carries lubricant pressure has no film or no viscosity",
-                                            "node " + std::to_string(i) + " of the average Reynolds equation",
-                                            "film " + std::to_string(node.film) + " mm, viscosity "
-                                                + std::to_string(node.viscosity) + " MPa s",
-                                            "above zero"));
+          result.push_back(film_coefficient(node, phi_p_floor));
+          if (!result.back().has_film && !node.fixed)
+            throw InputError(describe_error(
+                "A node that carries lubricant pressure has no film or no viscosity",
+                "node " + std::to_string(result.size() - 1) + " of the average Reynolds equation",
+                "film " + std::to_string(node.film) + " mm, viscosity " + std::to_string(node.viscosity) + " MPa s",
+                "above zero"));
         }
       return result;
     }
@@ -142,26 +75,24 @@ namespace tribodraw
     void
     assemble(const std::vector<NodeData> &nodes, Eigen::VectorXd &rhs)
     {
-      const std::vector<Coefficient> coefficient = coefficients(nodes);
-      double                        *value       = matrix.valuePtr();
+      const std::vector<FilmCoefficient> coefficient = coefficients(nodes);
+      double                            *value       = matrix.valuePtr();
       std::fill(value, value + matrix.nonZeros(), 0.);
       const std::size_t n_nodes = geometry.n_nodes();
       rhs                       = Eigen::VectorXd::Zero(n_nodes);
       for (std::size_t c = 0; c < geometry.cells().size(); ++c)
         {
-          const FilmGeometry::Cell          &cell = geometry.cells()[c];
-          std::array<const Coefficient *, 3> local;
-          unsigned                           n_films = 0, n_free = 0;
+          const FilmGeometry::Cell              &cell = geometry.cells()[c];
+          std::array<const FilmCoefficient *, 3> local;
+          unsigned                               n_films = 0, n_free = 0;
           for (unsigned i = 0; i < 3; ++i)
             {
               local[i] = &coefficient[cell.node[i]];
-              n_films += has_film(nodes[cell.node[i]]);
+              n_films += local[i]->has_film;
               n_free += !nodes[cell.node[i]].fixed;
             }
-          if (n_films == 3)
+          if (n_films == 3 || n_free > 0)
             add_cell(c, local, value, rhs);
-          else if (n_free > 0)
-            add_cell_at_rim(c, nodes, local, value, rhs);
         }
       // A node without any film around it is fixed; the unit entry keeps the matrix regular.
       for (std::size_t i = 0; i < n_nodes; ++i)
@@ -169,67 +100,16 @@ namespace tribodraw
           matrix.coeffRef(i, i) = 1.;
     }
 
-    /// Nodes without film take the mean of the others.
-    void
-    add_cell_at_rim(const std::size_t c, const std::vector<NodeData> &nodes, std::array<const Coefficient *, 3> local,
-                    double *value, Eigen::VectorXd &rhs) const
-    {
-      const FilmGeometry::Cell &cell = geometry.cells()[c];
-      Coefficient               mean;
-      unsigned                  n = 0;
-      for (unsigned i = 0; i < 3; ++i)
-        if (has_film(nodes[cell.node[i]]))
-          {
-            mean += *local[i];
-            ++n;
-          }
-      mean.scale(1. / n);
-      std::array<Coefficient, 3> filled;
-      for (unsigned i = 0; i < 3; ++i)
-        if (!has_film(nodes[cell.node[i]]))
-          {
-            filled[i]               = mean;
-            filled[i].mean_velocity = local[i]->mean_velocity;
-            filled[i].half_slip     = local[i]->half_slip;
-            local[i]                = &filled[i];
-          }
-      add_cell(c, local, value, rhs);
-    }
-
     /// int grad N_i . (h^3/(12 eta) PhiP) grad N_j  and  int grad N_i . (h (U1+U2)/2 + Sq PhiS (U1-U2)/2) - N_i
     /// squeeze.
     void
-    add_cell(const std::size_t c, const std::array<const Coefficient *, 3> &local, double *value,
+    add_cell(const std::size_t c, const std::array<const FilmCoefficient *, 3> &local, double *value,
              Eigen::VectorXd &rhs) const
     {
-      const FilmGeometry::Cell      &cell = geometry.cells()[c];
-      std::array<Eigen::Vector2d, 3> velocity, slip;
-      for (unsigned i = 0; i < 3; ++i)
-        {
-          velocity[i] = cell.axes.transpose() * local[i]->mean_velocity;
-          slip[i]     = cell.axes.transpose() * local[i]->half_slip;
-        }
-      Eigen::Vector3d mobility = Eigen::Vector3d::Zero(), squeeze = Eigen::Vector3d::Zero();
-      Eigen::Vector2d flux = Eigen::Vector2d::Zero();
-      for (const auto &point : geometry.quadrature())
-        {
-          const auto           &N = point.shape_value;
-          const double          w = point.weight * cell.area;
-          const double          h = N[0] * local[0]->film + N[1] * local[1]->film + N[2] * local[2]->film;
-          const double          f = N[0] * local[0]->fluidity + N[1] * local[1]->fluidity + N[2] * local[2]->fluidity;
-          const double          s = N[0] * local[0]->squeeze + N[1] * local[1]->squeeze + N[2] * local[2]->squeeze;
-          const Eigen::Vector2d v = N[0] * velocity[0] + N[1] * velocity[1] + N[2] * velocity[2];
-          const Eigen::Vector2d u = N[0] * slip[0] + N[1] * slip[1] + N[2] * slip[2];
-          mobility += (w * h * h * h * f) * (N[0] * local[0]->phi_p + N[1] * local[1]->phi_p + N[2] * local[2]->phi_p);
-          const Eigen::Matrix2d sheared
-              = N[0] * local[0]->sq_phi_s + N[1] * local[1]->sq_phi_s + N[2] * local[2]->sq_phi_s;
-          flux += w * (h * v + sheared * u);
-          squeeze += (w * s) * Eigen::Vector3d(N[0], N[1], N[2]);
-        }
-      Eigen::Matrix2d tensor;
-      tensor << mobility[0], mobility[2], mobility[2], mobility[1];
-      const Eigen::Matrix3d K = cell.material_gradient.transpose() * tensor * cell.material_gradient;
-      const Eigen::Vector3d b = cell.material_gradient.transpose() * flux - squeeze;
+      const FilmGeometry::Cell &cell  = geometry.cells()[c];
+      const FilmTerms           terms = film_terms(cell, geometry.quadrature(), local);
+      const Eigen::Matrix3d     K     = cell.material_gradient.transpose() * terms.mobility * cell.material_gradient;
+      const Eigen::Vector3d     b     = cell.material_gradient.transpose() * terms.flux - terms.squeeze;
       for (unsigned i = 0; i < 3; ++i)
         {
           rhs[cell.node[i]] += b[i];

@@ -34,6 +34,8 @@ namespace tribodraw
       Eigen::Matrix2d sq_phi_s       = Eigen::Matrix2d::Zero(); ///< Sq PhiS [mm]
       Eigen::Vector3d sheet_velocity = Eigen::Vector3d::Zero(); ///< U1 [mm/s]
       Eigen::Vector3d tool_velocity  = Eigen::Vector3d::Zero(); ///< U2 [mm/s]
+      /// W [mm/s]: the flow is taken relative to a mesh that moves so; zero in the frame in which the gap is steady.
+      Eigen::Vector3d mesh_velocity = Eigen::Vector3d::Zero();
       double          squeeze        = 0;                       ///< d h_avg / d t at fixed tool point [mm/s]
       double          p_limit        = 1e300;                   ///< largest pressure the contact can carry [MPa]
     };
