@@ -3,7 +3,7 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
-#include <tribodraw/surface/levelling.h>
+#include <tribodraw/surface/processing.h>
 #include <tribodraw/surface/surface.h>
 
 #include <cmath>
@@ -12,27 +12,6 @@ namespace tribodraw
 {
   namespace
   {
-    std::string
-    read_levelling(Parameters &parameters, const SurfaceSource *source)
-    {
-      std::optional<Default> default_value;
-      if (source && !source->needs_levelling())
-        default_value = Default{ "none", "the map is level by construction" };
-      return parameters.choice("Levelling", levelling_names(),
-                               "What is subtracted from the heights: nothing (the mean must be zero), the mean, or the "
-                               "least-squares plane. Required for measured surfaces; `none` for others.",
-                               default_value);
-    }
-
-    void
-    reject_missing(const HeightMap &map)
-    {
-      if (const std::size_t missing = n_missing(map); missing > 0)
-        throw InputError(describe_error("points of the surface are missing.", map.description,
-                                        std::to_string(missing) + " of " + std::to_string(map.size()), "none",
-                                        "Fill them in the measuring software."));
-    }
-
     /// A wrong unit shows in Sq: real sheet and tool surfaces are between these values.
     void
     warn_if_unusual(const HeightMap &map)
@@ -52,15 +31,14 @@ namespace tribodraw
   {
     const std::shared_ptr<const SurfaceSource> source
         = parameters.model<SurfaceSource>("Model", "Where the surface comes from.");
-    const std::string levelling = read_levelling(parameters, source.get());
-    const std::string section   = parameters.path();
-    return [source, levelling, section]() {
+    const Processing  processing(parameters, !source || source->needs_levelling());
+    const std::string section = parameters.path();
+    return [source, processing, section]() {
       const timing::Scope scope("surface/make");
       if (!source)
         throw InputError(describe_error("the surface is not defined.", section));
       HeightMap map = source->make();
-      reject_missing(map);
-      level(map, levelling);
+      processing.apply(map);
       if (map.size() > 0)
         warn_if_unusual(map);
       return map;

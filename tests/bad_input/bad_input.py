@@ -132,7 +132,7 @@ class BadInput(unittest.TestCase):
         self.assertIn("no_such_file.prm", result.stderr)
         self.assertEqual(list(self.folder.iterdir()), [])
         if any(e.section[:1] == ["Sheet surface"] for e in self.entries):
-            message = self.spoil({}, ["--set", "Sheet surface/Model = file", "--set", "Sheet surface/Levelling = plane",
+            message = self.spoil({}, ["--set", "Sheet surface/Model = file", "--set", "Sheet surface/Processing/Form = plane",
                                       "--set", "Sheet surface/File/Path = no_such_map.gsf"])
             self.assert_names_all(message, ["Sheet surface/File/Path", "no_such_map.gsf"])
 

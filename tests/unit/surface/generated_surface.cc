@@ -297,7 +297,7 @@ TEST(GeneratedSurface, WrongEntriesAreNamed)
     { "set Model = generate\n", "generated" },
     { "set Model = generated\nsubsection Generated\nset Texture = gaussian\nend\n", "Generated/Pixels" },
     { generated("gaussian", common(128, "1.56 mm", 1), "set Correlation length = 24 um\n"), "Generated/Sq" },
-    { gaussian(128, 1, "24 um") + "set Levelling = tilt\n", "Levelling" },
+    { gaussian(128, 1, "24 um") + "subsection Processing\nset Form = tilt\nend\n", "Processing/Form" },
   };
   for (const auto &c : cases)
     EXPECT_NE(problems_of(c.text).find(c.expected), std::string::npos)
@@ -309,7 +309,7 @@ TEST(GeneratedSurface, DocumentationNamesEveryEntry)
   auto parameters = Parameters::for_documentation();
   read_surface(parameters);
   for (const std::string path :
-       { "Model", "Levelling", "Generated/Texture", "Generated/Pixels", "Generated/Pixel size", "Generated/Sq",
+       { "Model", "Processing/Form", "Generated/Texture", "Generated/Pixels", "Generated/Pixel size", "Generated/Sq",
          "Generated/Seed", "Generated/Gaussian/Correlation length", "Generated/Bimodal/Plateau area fraction",
          "File/Path", "File/Pixel size", "File/Height unit" })
     EXPECT_TRUE(std::any_of(parameters.entries().begin(), parameters.entries().end(), [&](const EntryInfo &info) {

@@ -195,10 +195,10 @@ TEST_F(SurfaceFiles, MissingPointsAreNaNAndRefusedByReadSurface)
                                             floats({ 1e-6f, std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0 }))))),
       1u);
 
-  auto       parameters = Parameters::from_text("set Model = file\nset Levelling = mean\nsubsection File\nset Path = "
-                                                + write("1 BAD 3\n4 nan 6\n").string()
-                                                + "\nset Pixel size = 3 um\nset Height unit = um\nend\n");
-  const auto surface    = read_surface(parameters);
+  auto parameters = Parameters::from_text(
+      "set Model = file\nsubsection Processing\nset Form = mean\nend\nsubsection File\nset Path = "
+      + write("1 BAD 3\n4 nan 6\n").string() + "\nset Pixel size = 3 um\nset Height unit = um\nend\n");
+  const auto surface = read_surface(parameters);
   parameters.finish();
   try
     {
@@ -339,8 +339,9 @@ TEST_F(SurfaceFiles, MalformedTextIsRejected)
 TEST_F(SurfaceFiles, ParameterFileNamesPathAndScales)
 {
   const auto file = write("1 2 3\n4 5 6\n");
-  const auto text = [&](const std::string &entries, const std::string &levelling = "set Levelling = mean\n") {
-    return "set Model = file\n" + levelling + "subsection File\nset Path = " + file.string() + "\n" + entries + "end\n";
+  const auto text = [&](const std::string &entries,
+                        const std::string &form = "subsection Processing\nset Form = mean\nend\n") {
+    return "set Model = file\n" + form + "subsection File\nset Path = " + file.string() + "\n" + entries + "end\n";
   };
   auto       parameters = Parameters::from_text(text("set Pixel size = 3 um, 4 um\nset Height unit = nm\n"));
   const auto surface    = read_surface(parameters);
@@ -357,9 +358,9 @@ TEST_F(SurfaceFiles, ParameterFileNamesPathAndScales)
     { text("set Pixel size = 3 um\nset Height unit = volt\n"), "not a unit of length" },
     { text("set Pixel size = 3\nset Height unit = um\n"), "Pixel size" },
     { text("set Pixel size = 3 um, 3 um, 3 um\nset Height unit = um\n"), "3 values" },
-    { text("set Pixel size = 3 um\nset Height unit = um\n", ""), "Levelling" }, // measured: the user must choose
     { text("set Pixel width = 3 um\n"), "Pixel width" },
-    { "set Model = file\nset Levelling = mean\nsubsection File\nset Path = no_such_file.gsf\nend\n",
+    { "set Model = file\nsubsection Processing\nset Form = mean\nend\nsubsection File\nset Path = "
+      "no_such_file.gsf\nend\n",
       "no_such_file.gsf" },
   };
   for (const auto &c : cases)

@@ -1,4 +1,4 @@
-#include <tribodraw/surface/levelling.h>
+#include <tribodraw/surface/form.h>
 
 #include <tribodraw/base/errors.h>
 
@@ -27,17 +27,17 @@ namespace
   }
 } // namespace
 
-TEST(Levelling, PlaneOfAPlaneLeavesNothing)
+TEST(Form, PlaneOfAPlaneLeavesNothing)
 {
   auto map = make_map(31, 20, [](double x, double y) { return 0.5 + 0.01 * x - 0.03 * y; });
-  level(map, "plane");
+  remove_form(map, "plane");
   for (const double z : map.z)
     EXPECT_NEAR(z, 0., 1e-15);
   EXPECT_FALSE(map.periodic);
   EXPECT_NE(map.description.find("plane"), std::string::npos);
 }
 
-TEST(Levelling, PlaneKeepsWhatIsOrthogonalToPlanes)
+TEST(Form, PlaneKeepsWhatIsOrthogonalToPlanes)
 {
   // (x - xm)^2 - <(x - xm)^2> and (x - xm)(y - ym) are orthogonal to 1, x and y on a full grid.
   const auto form = [](double x, double y) {
@@ -45,30 +45,30 @@ TEST(Levelling, PlaneKeepsWhatIsOrthogonalToPlanes)
   };
   auto       map      = make_map(21, 11, [&](double x, double y) { return form(x, y) + 3. + 0.2 * x - 0.1 * y; });
   const auto expected = make_map(21, 11, form);
-  level(map, "plane");
+  remove_form(map, "plane");
   for (std::size_t i = 0; i < map.z.size(); ++i)
     EXPECT_NEAR(map.z[i], expected.z[i], 1e-13);
 }
 
-TEST(Levelling, MeanSubtractsTheMeanOnly)
+TEST(Form, MeanSubtractsTheMeanOnly)
 {
   auto map = make_map(4, 2, [](double x, double) { return 5. + x; });
-  level(map, "mean");
+  remove_form(map, "mean");
   EXPECT_NEAR(map(0, 0), -1.5, 1e-15); // mean of 5..8 is 6.5
   EXPECT_NEAR(map(3, 1), 1.5, 1e-15);
   EXPECT_TRUE(map.periodic);
 }
 
-TEST(Levelling, NoneInsistsOnZeroMean)
+TEST(Form, NoneInsistsOnZeroMean)
 {
   auto       level_map = make_map(4, 2, [](double x, double) { return x - 1.5; });
   const auto before    = level_map.z;
-  level(level_map, "none");
+  remove_form(level_map, "none");
   EXPECT_EQ(level_map.z, before);
   auto offset = make_map(4, 2, [](double x, double) { return x; });
   try
     {
-      level(offset, "none");
+      remove_form(offset, "none");
       FAIL() << "a map with offset was accepted";
     }
   catch (const InputError &e)
@@ -77,10 +77,10 @@ TEST(Levelling, NoneInsistsOnZeroMean)
     }
 }
 
-TEST(Levelling, EmptyMapStaysAndUnknownNamesAreRejected)
+TEST(Form, EmptyMapStaysAndUnknownNamesAreRejected)
 {
   HeightMap smooth;
-  level(smooth, "plane");
+  remove_form(smooth, "plane");
   EXPECT_EQ(smooth.size(), 0u);
-  EXPECT_THROW(level(smooth, "sphere"), InputError);
+  EXPECT_THROW(remove_form(smooth, "torus"), InputError);
 }
