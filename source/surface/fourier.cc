@@ -54,6 +54,8 @@ namespace tribodraw
     void
     forward(Complex *values)
     {
+      if (n == 1) // which kissfft does not know
+        return;
       if (chirp.empty())
         {
           fft.fwd(buffer.data(), values, static_cast<int>(n));
