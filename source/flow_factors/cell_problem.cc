@@ -4,6 +4,7 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
+#include <tribodraw/flow_factors/cell_bounds.h>
 #include <tribodraw/flow_factors/cell_flow.h>
 #include <tribodraw/flow_factors/cell_problem.h>
 
@@ -37,6 +38,13 @@ namespace tribodraw
       shear_flux(const int i) const
       {
         return flow.mean_flux(shear, i, window);
+      }
+
+      void
+      add_to(CellBounding &bounding) const
+      {
+        bounding.add_pressure_flow(axis, pressure.pressure, pressure.upper_flux);
+        bounding.add_shear_flow(axis, shear.pressure, shear.upper_flux);
       }
 
       void
@@ -108,25 +116,33 @@ namespace tribodraw
     const auto   over_sq    = [sq_reference](const double x) { return sq_reference > 0 ? x / sq_reference : 0.; };
     result.phi_s            = { { over_sq(carried), 0, 0, over_sq(carried) } };
 
-    std::unique_ptr<CellFlow> flow;
+    std::unique_ptr<CellFlow>     flow;
+    std::unique_ptr<CellBounding> bounding;
     for (int axis = 0; axis < 2; ++axis)
       {
+        if (settings.error_bounds && (axis == 0 || !grid.periodic))
+          bounding = std::make_unique<CellBounding>(grid, gap, axis);
         // periodic: one matrix for both directions
         if (axis == 0 || !grid.periodic)
           {
             flow.reset();
             flow = std::make_unique<CellFlow>(grid, gap, settings.discretisation, axis);
           }
-        if (flow->blocked())
-          continue;
-        const ColumnOfTensors column(*flow, window, axis);
-        for (int i = 0; i < 2; ++i)
-          if (grid.periodic || i == axis) // side walls without flow determine the diagonal only
-            {
-              result.phi_p[2 * i + axis] = column.pressure_factor(i);
-              result.phi_s[2 * i + axis] -= over_sq(gap.mean_gap * column.shear_flux(i));
-            }
-        column.record_quality(result);
+        if (!flow->blocked())
+          {
+            const ColumnOfTensors column(*flow, window, axis);
+            for (int i = 0; i < 2; ++i)
+              if (grid.periodic || i == axis) // side walls without flow determine the diagonal only
+                {
+                  result.phi_p[2 * i + axis] = column.pressure_factor(i);
+                  result.phi_s[2 * i + axis] -= over_sq(gap.mean_gap * column.shear_flux(i));
+                }
+            column.record_quality(result);
+            if (bounding)
+              column.add_to(*bounding);
+          }
+        if (bounding && (axis == 1 || !grid.periodic))
+          bounding->finish(result, sq_reference);
       }
     return result;
   }
