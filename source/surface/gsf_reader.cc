@@ -2,65 +2,67 @@
 #include <tribodraw/base/registry.h>
 #include <tribodraw/surface/surface_reader.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <map>
+
+#include "byte_view.h"
+#include "text_tools.h"
 
 namespace tribodraw
 {
   namespace
   {
-    const std::string magic = "Gwyddion Simple Field 1.0";
+    constexpr std::string_view magic = "Gwyddion Simple Field 1.0";
+    // Far more than the handful of fields of the format.
+    constexpr std::size_t longest_header = 1 << 20;
 
     [[noreturn]] void
-    fail(const std::string &what, const std::string &file, const std::string &value = "",
+    fail(const std::string &what, const std::string &where, const std::string &value = "",
          const std::string &allowed = "")
     {
-      throw InputError(describe_error(what, file, value, allowed));
+      throw InputError(describe_error("GSF: " + what, where, value, allowed));
     }
 
-    std::string
-    trimmed(const std::string &text)
+    struct Field
     {
-      const char *blanks = " \t\r";
-      const auto  first  = text.find_first_not_of(blanks);
-      return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-    }
+      std::string value;
+      std::string where; ///< file and line
+    };
 
     struct Header
     {
-      std::map<std::string, std::string> fields;
-      std::size_t                        data_begin = 0;
+      std::map<std::string, Field> fields;
+      std::size_t                  data_begin = 0;
     };
 
     Header
-    read_header(const std::string &content, const std::string &file)
+    read_header(std::string_view content, const std::string &file)
     {
-      const auto end = content.find('\0');
-      if (end == std::string::npos)
-        fail("GSF: the header is not ended by a zero byte (truncated file?).", file);
+      const auto end = content.substr(0, longest_header).find('\0');
+      if (end == std::string_view::npos)
+        fail("the header is not ended by a zero byte (truncated file?).", file,
+             "none in " + std::to_string(std::min(content.size(), longest_header)) + " bytes");
       Header header;
       // One to four zero bytes bring the data to a multiple of four.
       header.data_begin = (end / 4 + 1) * 4;
       for (std::size_t i = end; i < header.data_begin; ++i)
         if (i >= content.size() || content[i] != '\0')
-          fail("GSF: the header is not padded with zero bytes to a multiple of four.", file,
-               "byte " + std::to_string(i));
-      for (std::size_t begin = content.find('\n') + 1, line = 2; begin < end; ++line)
+          fail("the header is not padded with zero bytes to a multiple of four.", file + ", byte " + std::to_string(i));
+      Lines            lines(content.substr(0, end));
+      std::string_view text;
+      lines.next(text); // the mark of the format
+      while (lines.next(text))
         {
-          const std::size_t stop = std::min(content.find('\n', begin), end);
-          const std::string text = content.substr(begin, stop - begin);
-          begin                  = stop + 1;
           if (trimmed(text).empty())
             continue;
           const auto        equals = text.find('=');
-          const std::string where  = file + ", line " + std::to_string(line);
-          if (equals == std::string::npos)
-            fail("GSF: a header line is not of the form `Name = value`.", where, "`" + text.substr(0, 60) + "`");
-          if (!header.fields.emplace(trimmed(text.substr(0, equals)), trimmed(text.substr(equals + 1))).second)
-            fail("GSF: a header field occurs twice.", where, "`" + trimmed(text.substr(0, equals)) + "`");
+          const std::string where  = file + ", line " + std::to_string(lines.number());
+          if (equals == std::string_view::npos)
+            fail("a header line is not of the form `Name = value`.", where, "`" + excerpt(text) + "`");
+          const std::string name(trimmed(text.substr(0, equals)));
+          if (!header.fields.emplace(name, Field{ std::string(trimmed(text.substr(equals + 1))), where }).second)
+            fail("a header field occurs twice.", where, "`" + excerpt(name) + "`");
         }
       return header;
     }
@@ -70,52 +72,39 @@ namespace tribodraw
     {
       const auto found = header.fields.find(name);
       if (found == header.fields.end())
-        fail("GSF: the header field `" + name + "` is missing.", file);
-      const std::string &text  = found->second;
-      std::size_t        value = 0;
-      const auto [end, error]  = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc() || end != text.data() + text.size() || value == 0)
-        fail("GSF: `" + name + "` is not a positive integer.", file, "`" + text + "`");
-      return value;
+        fail("the header field `" + name + "` is missing.", file);
+      const auto value = parse_count(found->second.value);
+      if (!value || *value == 0)
+        fail("`" + name + "` is not a positive integer.", found->second.where,
+             "`" + excerpt(found->second.value) + "`");
+      return *value;
     }
 
     /// Total length along an axis in its unit, or nothing if not stated. The format's own default (1.0) would be a
     /// guess.
     std::optional<double>
-    read_length(const Header &header, const std::string &name, const std::string &file)
+    read_length(const Header &header, const std::string &name)
     {
       const auto found = header.fields.find(name);
       if (found == header.fields.end())
         return {};
-      const std::string &text  = found->second;
-      double             value = 0;
-      const auto [end, error]  = std::from_chars(text.data(), text.data() + text.size(), value);
-      if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || value <= 0.)
-        fail("GSF: `" + name + "` is not a positive number.", file, "`" + text + "`");
+      const auto value = parse_finite(found->second.value);
+      if (!value || *value <= 0.)
+        fail("`" + name + "` is not a positive number.", found->second.where, "`" + excerpt(found->second.value) + "`");
       return value;
     }
 
     std::optional<double>
-    read_unit(const Header &header, const std::string &name, const std::string &file)
+    read_unit(const Header &header, const std::string &name)
     {
       const auto found = header.fields.find(name);
-      if (found == header.fields.end() || found->second.empty())
+      if (found == header.fields.end() || found->second.value.empty())
         return {};
-      const auto unit = length_unit(found->second);
+      const auto unit = length_unit(found->second.value);
       if (!unit)
-        fail("GSF: `" + name + "` is not a unit of length.", file, "`" + found->second + "`", "m, mm, um, nm");
+        fail("`" + name + "` is not a unit of length.", found->second.where, "`" + excerpt(found->second.value) + "`",
+             "m, mm, um, nm");
       return unit;
-    }
-
-    float
-    read_float(const char *bytes)
-    {
-      std::uint32_t bits = 0; // little endian, whatever this machine is
-      for (int i = 3; i >= 0; --i)
-        bits = (bits << 8) | static_cast<unsigned char>(bytes[i]);
-      float value;
-      std::memcpy(&value, &bits, sizeof(value));
-      return value;
     }
 
     /// Gwyddion Simple Field: the line `Gwyddion Simple Field 1.0`, lines `Name = value` (XRes, YRes, XReal, YReal:
@@ -127,50 +116,56 @@ namespace tribodraw
       explicit GsfReader(Parameters &) {}
 
       Match
-      recognises(const std::string &content) const override
+      recognises(std::string_view content) const override
       {
-        const bool match = content.compare(0, magic.size(), magic) == 0 && content.size() > magic.size()
+        const bool match = content.substr(0, magic.size()) == magic && content.size() > magic.size()
                            && (content[magic.size()] == '\n' || content[magic.size()] == '\r');
         return match ? Match::certain : Match::none;
       }
 
       RawSurface
-      read(const std::string &content, const std::string &file) const override
+      read(std::string_view content, const std::string &file) const override
       {
-        const Header header = read_header(content, file);
-        RawSurface   raw;
+        const Header      header = read_header(content, file);
+        const std::size_t begin  = header.data_begin;
+        RawSurface        raw;
         raw.nx = read_count(header, "XRes", file);
         raw.ny = read_count(header, "YRes", file);
-        check_size(raw, content.size() - header.data_begin, file);
+        check_size(raw, content.size() - begin, file + ", byte " + std::to_string(begin));
 
-        const auto width = read_length(header, "XReal", file), height = read_length(header, "YReal", file);
-        const auto unit = read_unit(header, "XYUnits", file);
+        const auto width = read_length(header, "XReal"), height = read_length(header, "YReal");
+        const auto unit = read_unit(header, "XYUnits");
         if (width && height && unit)
           raw.pixel_size
               = { *width * *unit / static_cast<double>(raw.nx), *height * *unit / static_cast<double>(raw.ny) };
-        raw.height_unit = read_unit(header, "ZUnits", file);
+        raw.height_unit = read_unit(header, "ZUnits");
+        if (const auto title = header.fields.find("Title"); title != header.fields.end())
+          raw.remark = excerpt(title->second.value, 200);
 
-        raw.z.resize(raw.nx * raw.ny);
-        for (std::size_t row = 0; row < raw.ny; ++row)
-          for (std::size_t ix = 0; ix < raw.nx; ++ix)
-            raw.z[(raw.ny - 1 - row) * raw.nx + ix]
-                = read_float(content.data() + header.data_begin + 4 * (row * raw.nx + ix));
+        const auto offset = [begin, nx = raw.nx, ny = raw.ny](std::size_t ix, std::size_t iy) {
+          return begin + 4 * ((ny - 1 - iy) * nx + ix);
+        };
+        raw.heights = [content, offset, nx = raw.nx, ny = raw.ny](const HeightSink &sink) {
+          for (std::size_t iy = ny; iy-- > 0;)
+            for (std::size_t ix = 0; ix < nx; ++ix)
+              sink(ix, iy, decode_to_double<float>(content.data() + offset(ix, iy)));
+        };
+        raw.place = [offset](std::size_t ix, std::size_t iy) { return "byte " + std::to_string(offset(ix, iy)); };
         return raw;
       }
 
     private:
       static void
-      check_size(const RawSurface &raw, std::size_t n_bytes, const std::string &file)
+      check_size(const RawSurface &raw, std::size_t n_bytes, const std::string &where)
       {
         const std::size_t n_points = n_bytes / 4;
+        const std::string allowed  = std::to_string(raw.nx) + " x " + std::to_string(raw.ny) + " points of 4 bytes";
         // Division, because the product of hostile counts may overflow.
         if (raw.ny > n_points / raw.nx)
-          fail("GSF: the file is shorter than its header says (truncated file?).", file,
-               std::to_string(n_bytes) + " bytes of data",
-               std::to_string(raw.nx) + " x " + std::to_string(raw.ny) + " points of 4 bytes");
+          fail("the file is shorter than its header says (truncated file?).", where,
+               std::to_string(n_bytes) + " bytes of data", allowed);
         if (n_bytes != 4 * raw.nx * raw.ny)
-          fail("GSF: the file is longer than its header says.", file, std::to_string(n_bytes) + " bytes of data",
-               std::to_string(raw.nx) + " x " + std::to_string(raw.ny) + " points of 4 bytes");
+          fail("the file is longer than its header says.", where, std::to_string(n_bytes) + " bytes of data", allowed);
       }
     };
   } // namespace
