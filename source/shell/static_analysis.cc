@@ -52,6 +52,11 @@ namespace tribodraw
     s.residual_tolerance = p.quantity("Residual tolerance", "", Range::between(1e-12, 1e-2),
                                       "Norm of the unbalanced forces divided by that of the loads or reactions.",
                                       Default{ "1e-6", "the last iterations converge quadratically" });
+    s.correction_tolerance
+        = p.quantity("Correction tolerance", "", Range::between(1e-14, 1e-4),
+                     "A step has also converged if the last correction of every node is smaller than this fraction of "
+                     "the size of the model, and of every director smaller than this angle in rad.",
+                     Default{ "1e-9", "in thin sheets the unbalanced forces end at the round-off of membrane forces" });
     s.largest_rotation
         = p.quantity("Largest rotation", "rad", Range::between(1e-3, 1.5), "Of a director in one Newton correction.",
                      Default{ "0.5 rad", "beyond, the linearisation says nothing about the solution" });
@@ -75,13 +80,20 @@ namespace tribodraw
         symmetric(growing.conservative() && constant.conservative()), K(shell.make_matrix()),
         solver(symmetric ? DirectSolver::Symmetry::symmetric : DirectSolver::Symmetry::unsymmetric),
         committed_reactions(Eigen::VectorXd::Zero(shell.n_dofs())),
-        last_increment(Eigen::VectorXd::Zero(shell.n_dofs())), committed_factor(initial_factor),
+        last_path_increment(Eigen::VectorXd::Zero(shell.n_dofs())), committed_factor(initial_factor),
         trial_factor(initial_factor)
   {
     the_shell.revert();
     Eigen::VectorXd external = std::abs(initial_factor) * loads.forces(shell) + constant_loads.forces(shell);
     clear_fixed(external);
-    force_scale = external.norm();
+    force_scale         = external.norm();
+    Eigen::Vector3d low = shell.mesh().nodes.front(), high = low;
+    for (const Eigen::Vector3d &x : shell.mesh().nodes)
+      {
+        low  = low.cwiseMin(x);
+        high = high.cwiseMax(x);
+      }
+    model_size = (high - low).norm();
   }
 
   void
@@ -162,6 +174,17 @@ namespace tribodraw
     return R.norm() / std::max(force_scale, std::numeric_limits<double>::min());
   }
 
+  /// True if a correction moved nothing by more than the correction tolerance.
+  bool
+  StaticAnalysis::at_rest(const Eigen::VectorXd &du) const
+  {
+    for (unsigned node = 0; node < the_shell.n_nodes(); ++node)
+      for (unsigned c = 0; c < Shell::dofs_per_node; ++c)
+        if (std::abs(du[the_shell.dof(node, c)]) > settings.correction_tolerance * (c < 3 ? model_size : 1.))
+          return false;
+    return true;
+  }
+
   /// Solutions of K u = -R and of K u = d(loads)/d(factor) with the motion of the supports.
   bool
   StaticAnalysis::solve_linear(Eigen::VectorXd &from_residual, Eigen::VectorXd &from_factor)
@@ -210,7 +233,7 @@ namespace tribodraw
       case Control::path:
         if (first)
           {
-            const double forward = path_product(last_increment, by_factor) < 0 ? -1 : 1;
+            const double forward = path_product(last_path_increment, by_factor) < 0 ? -1 : 1;
             result.dfactor       = forward * size / std::sqrt(path_product(by_factor, by_factor));
           }
         else
@@ -297,7 +320,8 @@ namespace tribodraw
         outcome.step.iterations = iteration;
         outcome.step.residuals.push_back(residual);
         const bool arrived = control != Control::factor || std::abs(trial_factor - target) <= 1e-12 * size;
-        if (arrived && residual <= settings.residual_tolerance)
+        // In thin sheets the unbalanced forces may not fall below the round-off of much greater membrane forces.
+        if (arrived && (residual <= settings.residual_tolerance || at_rest(du.du)))
           {
             outcome.converged   = true;
             outcome.step.factor = control == Control::factor ? target : trial_factor;
@@ -316,9 +340,10 @@ namespace tribodraw
   }
 
   void
-  StaticAnalysis::accept(const Outcome &outcome)
+  StaticAnalysis::accept(const Control control, const Outcome &outcome)
   {
-    last_increment      = displacement_increment();
+    if (control == Control::path)
+      last_path_increment = displacement_increment();
     committed_factor    = outcome.step.factor;
     committed_reactions = trial_reactions;
     the_shell.commit();
@@ -389,7 +414,7 @@ namespace tribodraw
         const Outcome outcome = increment(control, there, size, continued);
         if (outcome.converged)
           {
-            accept(outcome);
+            accept(control, outcome);
             const double growth = std::sqrt(static_cast<double>(settings.desired_iterations) / outcome.step.iterations);
             if (!cut || growth < 1)
               step = std::min(largest, size * std::clamp(growth, 0.5, settings.largest_growth));

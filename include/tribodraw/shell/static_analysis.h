@@ -38,14 +38,15 @@ namespace tribodraw
   public:
     struct Settings
     {
-      double          residual_tolerance = 1e-6; ///< norm of the unbalanced forces over that of loads or reactions
-      double          largest_rotation   = 0.5;  ///< of a director in one correction [rad]
-      double          largest_growth     = 1.5;  ///< of the step
-      double          smallest_step      = 1e-6; ///< as a fraction of the first step
-      unsigned        max_iterations     = 30;
-      unsigned        desired_iterations = 8;
-      unsigned        max_steps          = 2000; ///< of one call
-      bool            line_search        = true; ///< under a prescribed factor
+      double          residual_tolerance   = 1e-6; ///< norm of the unbalanced forces over that of loads or reactions
+      double          correction_tolerance = 1e-9; ///< of the size of the model, or rad
+      double          largest_rotation     = 0.5;  ///< of a director in one correction [rad]
+      double          largest_growth       = 1.5;  ///< of the step
+      double          smallest_step        = 1e-6; ///< as a fraction of the first step
+      unsigned        max_iterations       = 30;
+      unsigned        desired_iterations   = 8;
+      unsigned        max_steps            = 2000; ///< of one call
+      bool            line_search          = true; ///< under a prescribed factor
       static Settings read(Parameters &parameters);
     };
 
@@ -136,7 +137,8 @@ namespace tribodraw
     Eigen::VectorXd displacement_increment() const;
     void            clear_fixed(Eigen::VectorXd &v) const;
     double          relative_residual();
-    void            accept(const Outcome &outcome);
+    bool            at_rest(const Eigen::VectorXd &du) const;
+    void            accept(Control control, const Outcome &outcome);
     std::string     diagnosis(Control control, const Outcome &outcome) const;
     void            go(Control control, double target, double &step, double largest,
                        const std::function<bool(const StaticAnalysis &)> &finished);
@@ -150,8 +152,8 @@ namespace tribodraw
     const bool                 symmetric;
     SparseMatrix               K;
     DirectSolver               solver;
-    Eigen::VectorXd            R, load_vector, trial_reactions, committed_reactions, last_increment;
-    double                     committed_factor, trial_factor, force_scale = 0, speed = 1;
+    Eigen::VectorXd            R, load_vector, trial_reactions, committed_reactions, last_path_increment;
+    double                     committed_factor, trial_factor, force_scale = 0, model_size = 0, speed = 1;
     double                     factor_step = 0, displacement_step = 0, path_step = 0;
     const DisplacementMeasure *measure = nullptr;
     Eigen::VectorXd            measure_gradient;
