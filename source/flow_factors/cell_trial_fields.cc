@@ -10,12 +10,12 @@ namespace tribodraw
   {
     // Differences of the four corner values of a pixel: along x below and above, along y left and right, twist.
     // Corners: (0,0), (1,0), (0,1), (1,1).
-    template <class Number>
+    template <class Values>
     struct Differences
     {
-      Number below, above, left, right, twist;
+      Values below, above, left, right, twist;
 
-      Differences(const Number v0, const Number v1, const Number v2, const Number v3)
+      Differences(const Values &v0, const Values &v1, const Values &v2, const Values &v3)
           : below(v1 - v0), above(v3 - v2), left(v2 - v0), right(v3 - v1), twist(above - below)
       {
       }
@@ -38,9 +38,9 @@ namespace tribodraw
         }
     number_corners();
     mark_corners();
-    u.assign(fixed.size(), Values{});
-    face_flux[0].assign(mx * grid.ny, Values{});
-    face_flux[1].assign(grid.nx * my, Values{});
+    u.assign(fixed.size(), Values::Zero());
+    face_flux[0].assign(mx * grid.ny, Values::Zero());
+    face_flux[1].assign(grid.nx * my, Values::Zero());
     grow_tree();
   }
 
@@ -53,14 +53,15 @@ namespace tribodraw
   std::size_t
   CellTrialFields::face_index(const int cell, const Face face) const
   {
-    std::size_t ix = grid.coordinate(cell, 0), iy = grid.coordinate(cell, 1);
-    if (face == left || face == right)
-      {
-        ix += face == right;
-        return iy * mx + (ix == mx ? 0 : ix);
-      }
-    iy += face == top;
-    return (iy == my ? 0 : iy) * grid.nx + ix;
+    // 32 bits: division is what this costs
+    const auto nx = static_cast<unsigned>(grid.nx), c = static_cast<unsigned>(cell);
+    if (face == bottom)
+      return c;
+    if (face == top)
+      return c + nx < grid.nx * my ? c + nx : c + nx - grid.size();
+    if (grid.periodic)
+      return face == left ? c : (c + 1) % nx == 0 ? c + 1 - nx : c + 1;
+    return c + c / nx + (face == right);
   }
 
   CellTrialFields::Values &
@@ -79,12 +80,18 @@ namespace tribodraw
   int
   CellTrialFields::neighbour(const int cell, const Face face) const
   {
-    const int  axis = face == left || face == right ? 0 : 1, n = static_cast<int>(grid.n(axis));
-    const int  stride = axis == 0 ? 1 : static_cast<int>(grid.nx), i = static_cast<int>(grid.coordinate(cell, axis));
-    const bool up = face == right || face == top;
-    if (up ? i + 1 < n : i > 0)
-      return cell + (up ? stride : -stride);
-    return grid.periodic ? cell + (up ? -(n - 1) * stride : (n - 1) * stride) : -1;
+    const int nx = static_cast<int>(grid.nx), size = static_cast<int>(grid.size());
+    switch (face)
+      {
+      case bottom:
+        return cell >= nx ? cell - nx : grid.periodic ? cell - nx + size : -1;
+      case top:
+        return cell + nx < size ? cell + nx : grid.periodic ? cell + nx - size : -1;
+      case left:
+        return cell % nx > 0 ? cell - 1 : grid.periodic ? cell - 1 + nx : -1;
+      default:
+        return (cell + 1) % nx > 0 ? cell + 1 : grid.periodic ? cell + 1 - nx : -1;
+      }
   }
 
   void
@@ -194,7 +201,7 @@ namespace tribodraw
   std::array<CellTrialFields::Values, 2>
   CellTrialFields::drive(const std::size_t i) const
   {
-    std::array<Values, 2> result{};
+    std::array<Values, 2> result{ { Values::Zero(), Values::Zero() } };
     for (const int axis : { 0, 1 })
       {
         if (set[pressure_field(axis)])
@@ -259,28 +266,24 @@ namespace tribodraw
   std::vector<CellTrialFields::SingleValues>
   CellTrialFields::potential_residual() const
   {
-    std::vector<Values> sum(u.size(), Values{});
+    std::vector<Values> sum(u.size(), Values::Zero());
     const double        dx = grid.dx, dy = grid.dy, twist = (1 / (dx * dx) + 1 / (dy * dy)) / 12;
     for (std::size_t i = 0; i < cells.size(); ++i)
       {
-        const auto  kg = drive(i);
-        const auto &c  = corners[i];
-        for (int f = 0; f < n_fields; ++f)
-          {
-            const Differences<double> d(u[c[0]][f], u[c[1]][f], u[c[2]][f], u[c[3]][f]);
-            const double              x = (kg[0][f] + k[i] * (d.below + d.above) / (2 * dx)) / (2 * dx);
-            const double              y = (kg[1][f] + k[i] * (d.left + d.right) / (2 * dy)) / (2 * dy);
-            const double              t = k[i] * d.twist * twist;
-            sum[c[0]][f] += x + y - t;
-            sum[c[1]][f] += -x + y + t;
-            sum[c[2]][f] += x - y + t;
-            sum[c[3]][f] += -x - y - t;
-          }
+        const auto                kg = drive(i);
+        const auto               &c  = corners[i];
+        const Differences<Values> d(u[c[0]], u[c[1]], u[c[2]], u[c[3]]);
+        const Values              x = (kg[0] + (d.below + d.above) * (k[i] / (2 * dx))) * (1 / (2 * dx));
+        const Values              y = (kg[1] + (d.left + d.right) * (k[i] / (2 * dy))) * (1 / (2 * dy));
+        const Values              t = d.twist * (k[i] * twist);
+        sum[c[0]] += x + y - t;
+        sum[c[1]] += y - x + t;
+        sum[c[2]] += x - y + t;
+        sum[c[3]] -= x + y + t;
       }
     std::vector<SingleValues> result(u.size());
     for (std::size_t c = 0; c < u.size(); ++c)
-      for (int f = 0; f < n_fields; ++f)
-        result[c][f] = static_cast<float>(sum[c][f]);
+      result[c] = sum[c].cast<float>();
     return result;
   }
 
@@ -289,7 +292,7 @@ namespace tribodraw
   std::vector<CellTrialFields::SingleValues>
   CellTrialFields::circulation_residual() const
   {
-    std::vector<Values> sum(u.size(), Values{});
+    std::vector<Values> sum(u.size(), Values::Zero());
     const double        dx = grid.dx, dy = grid.dy;
     for (std::size_t i = 0; i < cells.size(); ++i)
       {
@@ -297,24 +300,19 @@ namespace tribodraw
         const auto   &c  = corners[i];
         const Values &ql = face_values(cells[i], left), &qr = face_values(cells[i], right),
                      &qb = face_values(cells[i], bottom), &qt = face_values(cells[i], top);
-        for (int f = 0; f < n_fields; ++f)
-          {
-            // derivatives by the flux over each face
-            const double mean_x = ((ql[f] + qr[f]) / (2 * dy) - kg[0][f]) / (2 * dy * k[i]);
-            const double mean_y = ((qb[f] + qt[f]) / (2 * dx) - kg[1][f]) / (2 * dx * k[i]);
-            const double rise_x = (qr[f] - ql[f]) / (12 * dy * dy * k[i]),
-                         rise_y = (qt[f] - qb[f]) / (12 * dx * dx * k[i]);
-            const double l = mean_x - rise_x, r = mean_x + rise_x, b = mean_y - rise_y, t = mean_y + rise_y;
-            sum[c[0]][f] += l - b;
-            sum[c[1]][f] += r + b;
-            sum[c[2]][f] += -l - t;
-            sum[c[3]][f] += -r + t;
-          }
+        // derivatives by the flux over each face
+        const Values mean_x = ((ql + qr) * (1 / (2 * dy)) - kg[0]) * (1 / (2 * dy * k[i]));
+        const Values mean_y = ((qb + qt) * (1 / (2 * dx)) - kg[1]) * (1 / (2 * dx * k[i]));
+        const Values rise_x = (qr - ql) * (1 / (12 * dy * dy * k[i])), rise_y = (qt - qb) * (1 / (12 * dx * dx * k[i]));
+        const Values l = mean_x - rise_x, r = mean_x + rise_x, b = mean_y - rise_y, t = mean_y + rise_y;
+        sum[c[0]] += l - b;
+        sum[c[1]] += r + b;
+        sum[c[2]] -= l + t;
+        sum[c[3]] += t - r;
       }
     std::vector<SingleValues> result(u.size());
     for (std::size_t c = 0; c < u.size(); ++c)
-      for (int f = 0; f < n_fields; ++f)
-        result[c][f] = static_cast<float>(sum[c][f]);
+      result[c] = sum[c].cast<float>();
     return result;
   }
 
@@ -324,64 +322,58 @@ namespace tribodraw
   std::vector<CellTrialFields::SingleValues>
   CellTrialFields::descend(std::vector<SingleValues> residual, const bool circulation, const unsigned steps) const
   {
-    const double dx = grid.dx, dy = grid.dy;
-    const float  ax = static_cast<float>(1 / (4 * dx * dx)), ay = static_cast<float>(1 / (4 * dy * dy)),
-                at       = (ax + ay) / 3;
+    const float ax = static_cast<float>(1 / (4 * grid.dx * grid.dx)),
+                ay = static_cast<float>(1 / (4 * grid.dy * grid.dy)), at = (ax + ay) / 3;
     const std::size_t  n = u.size();
-    std::vector<float> inverse_diagonal(n, 0.f);
+    std::vector<float> kappa(cells.size()), inverse_diagonal(n, 0.f);
     for (std::size_t i = 0; i < cells.size(); ++i)
-      for (const int c : corners[i])
-        inverse_diagonal[c] += static_cast<float>(circulation ? 1 / k[i] : k[i]) * (ax + ay + at);
+      {
+        kappa[i] = static_cast<float>(circulation ? 1 / k[i] : k[i]);
+        for (const int c : corners[i])
+          inverse_diagonal[c] += kappa[i] * (ax + ay + at);
+      }
     const std::vector<char> &mask = circulation ? closed : fixed;
     for (std::size_t c = 0; c < n; ++c)
       inverse_diagonal[c] = mask[c] || !(inverse_diagonal[c] > 0) ? 0.f : 1 / inverse_diagonal[c];
 
-    std::vector<SingleValues> x(n, SingleValues{}), p(n, SingleValues{}), ap(n);
-    Values                    rz_before{};
+    const auto quotient = [](const Values &a, const Values &b) -> SingleValues {
+      return (b > 0).select(a / b, Values::Zero()).cast<float>();
+    };
+    std::vector<SingleValues> x(n, SingleValues::Zero()), p(n, SingleValues::Zero()), ap(n);
+    Values                    rz_before = Values::Zero(), rz = Values::Zero();
+    for (std::size_t c = 0; c < n; ++c)
+      rz += (residual[c] * residual[c] * inverse_diagonal[c]).cast<double>();
     for (unsigned step = 0; step < steps; ++step)
       {
-        Values rz{};
+        const SingleValues beta = quotient(rz, rz_before);
         for (std::size_t c = 0; c < n; ++c)
-          for (int f = 0; f < n_fields; ++f)
-            rz[f] += static_cast<double>(residual[c][f] * residual[c][f] * inverse_diagonal[c]);
-        SingleValues beta{};
-        for (int f = 0; f < n_fields; ++f)
-          beta[f] = rz_before[f] > 0 ? static_cast<float>(rz[f] / rz_before[f]) : 0.f;
-        for (std::size_t c = 0; c < n; ++c)
-          for (int f = 0; f < n_fields; ++f)
-            {
-              p[c][f]  = inverse_diagonal[c] * residual[c][f] + beta[f] * p[c][f];
-              ap[c][f] = 0;
-            }
-        Values pap{};
+          {
+            p[c]  = inverse_diagonal[c] * residual[c] + beta * p[c];
+            ap[c] = SingleValues::Zero();
+          }
         for (std::size_t i = 0; i < cells.size(); ++i)
           {
-            const auto &c     = corners[i];
-            const float kappa = static_cast<float>(circulation ? 1 / k[i] : k[i]);
-            for (int f = 0; f < n_fields; ++f)
-              {
-                const Differences<float> d(p[c[0]][f], p[c[1]][f], p[c[2]][f], p[c[3]][f]);
-                const float              gx = kappa * ax * (d.below + d.above), gy = kappa * ay * (d.left + d.right);
-                const float              gt = kappa * at * d.twist;
-                ap[c[0]][f] += gt - gx - gy;
-                ap[c[1]][f] += gx - gy - gt;
-                ap[c[2]][f] += gy - gx - gt;
-                ap[c[3]][f] += gx + gy + gt;
-              }
+            const auto                     &c = corners[i];
+            const Differences<SingleValues> d(p[c[0]], p[c[1]], p[c[2]], p[c[3]]);
+            const SingleValues gx = (d.below + d.above) * (kappa[i] * ax), gy = (d.left + d.right) * (kappa[i] * ay),
+                               gt = d.twist * (kappa[i] * at);
+            ap[c[0]] += gt - gx - gy;
+            ap[c[1]] += gx - gy - gt;
+            ap[c[2]] += gy - gx - gt;
+            ap[c[3]] += gx + gy + gt;
           }
+        Values pap = Values::Zero();
         for (std::size_t c = 0; c < n; ++c)
-          for (int f = 0; f < n_fields; ++f)
-            pap[f] += static_cast<double>(p[c][f] * ap[c][f]);
-        SingleValues alpha{};
-        for (int f = 0; f < n_fields; ++f)
-          alpha[f] = pap[f] > 0 ? static_cast<float>(rz[f] / pap[f]) : 0.f;
+          pap += (p[c] * ap[c]).cast<double>();
+        const SingleValues alpha = quotient(rz, pap);
+        rz_before                = rz;
+        rz.setZero();
         for (std::size_t c = 0; c < n; ++c)
-          for (int f = 0; f < n_fields; ++f)
-            {
-              x[c][f] += alpha[f] * p[c][f];
-              residual[c][f] -= alpha[f] * ap[c][f];
-            }
-        rz_before = rz;
+          {
+            x[c] += alpha * p[c];
+            residual[c] -= alpha * ap[c];
+            rz += (residual[c] * residual[c] * inverse_diagonal[c]).cast<double>();
+          }
       }
     return x;
   }
@@ -389,15 +381,14 @@ namespace tribodraw
   void
   CellTrialFields::improve(const unsigned steps)
   {
-    const std::vector<SingleValues> du = descend(potential_residual(), false, steps);
-    for (std::size_t c = 0; c < u.size(); ++c)
-      for (int f = 0; f < n_fields; ++f)
-        u[c][f] += du[c][f];
-
+    {
+      const std::vector<SingleValues> du = descend(potential_residual(), false, steps);
+      for (std::size_t c = 0; c < u.size(); ++c)
+        u[c] += du[c].cast<double>();
+    }
     const std::vector<SingleValues> z   = descend(circulation_residual(), true, steps);
     const auto                      add = [](Values &flux, const SingleValues &plus, const SingleValues &minus) {
-      for (int f = 0; f < n_fields; ++f)
-        flux[f] += static_cast<double>(plus[f]) - static_cast<double>(minus[f]);
+      flux += plus.cast<double>() - minus.cast<double>();
     };
     // Each face once: by the cell below it, and over the lower edge of the map by the cell above.
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -413,133 +404,144 @@ namespace tribodraw
       }
   }
 
-  void
-  CellTrialFields::balance()
-  {
-    for (int field = 0; field < n_fields; ++field)
-      if (set[field])
-        balance(field);
-  }
-
   // Rounding to multiples of a quantum, then the excess of each cell goes to its parent, leaves first. Sums and
   // differences of multiples below 2^53 quanta are exact, so nothing is left in the end.
   void
-  CellTrialFields::balance(const int field)
+  CellTrialFields::balance()
   {
-    double largest = 0;
+    Values largest = Values::Constant(1e-100);
     for (const auto &fluxes : face_flux)
       for (const Values &f : fluxes)
-        largest = std::max(largest, std::abs(f[field]));
-    if (!(largest > 0))
-      return;
-    const double quantum = std::ldexp(1., std::ilogb(largest) + 1 - 49);
+        largest = largest.max(f.abs());
+    // Beside 1.5 * 2^52 quanta a number has no digits below the quantum.
+    Values rounder;
+    for (int f = 0; f < n_fields; ++f)
+      rounder[f] = std::ldexp(1.5, std::ilogb(largest[f]) + 1 - 49 + 52);
     for (auto &fluxes : face_flux)
       for (Values &f : fluxes)
-        f[field] = std::nearbyint(f[field] / quantum) * quantum;
+        {
+          const Values sum = f + rounder;
+          f                = sum - rounder;
+        }
     for (auto cell = tree.rbegin(); cell != tree.rend(); ++cell)
       {
-        const double excess = (flux(*cell, right, field) - flux(*cell, left, field))
-                              + (flux(*cell, top, field) - flux(*cell, bottom, field));
-        const int face = to_parent[*cell];
-        if (face < 0)
+        Values &r = face_values(*cell, right), &l = face_values(*cell, left), &t = face_values(*cell, top),
+               &b           = face_values(*cell, bottom);
+        const Values excess = (r - l) + (t - b);
+        switch (to_parent[*cell])
           {
-            if (excess != 0)
+          case left:
+            l += excess;
+            break;
+          case right:
+            r -= excess;
+            break;
+          case bottom:
+            b += excess;
+            break;
+          case top:
+            t -= excess;
+            break;
+          default:
+            if ((excess != 0).any())
               throw std::logic_error("The fluxes in a local Reynolds cell cannot be balanced.");
-            continue;
           }
-        double &to_change = face_values(*cell, static_cast<Face>(face))[field];
-        to_change += face == right || face == top ? -excess : excess;
       }
   }
+
+  namespace
+  {
+    // Sums of one row of pixels, added to those of the map: round-off grows with the length of a row and of a column
+    // only.
+    struct EnergySums
+    {
+      using Vector = Eigen::Array4d;
+
+      Eigen::Matrix4d primal = Eigen::Matrix4d::Zero(), gap = Eigen::Matrix4d::Zero();
+      Vector          complementary = Vector::Zero(), flux_x = Vector::Zero(), flux_y = Vector::Zero(),
+             magnitude_x = Vector::Zero(), magnitude_y = Vector::Zero();
+
+      static void
+      add_square(Eigen::Matrix4d &to, const Vector &v, const double weight)
+      {
+        to.noalias() += (weight * v).matrix() * v.matrix().transpose();
+      }
+
+      EnergySums &
+      operator+=(const EnergySums &other)
+      {
+        primal += other.primal;
+        gap += other.gap;
+        complementary += other.complementary;
+        flux_x += other.flux_x;
+        flux_y += other.flux_y;
+        magnitude_x += other.magnitude_x;
+        magnitude_y += other.magnitude_y;
+        return *this;
+      }
+
+      CellEnergies
+      per_area(const double n) const
+      {
+        CellEnergies result;
+        for (int a = 0; a < CellTrialFields::n_fields; ++a)
+          {
+            for (int b = 0; b < CellTrialFields::n_fields; ++b)
+              {
+                result.primal[a][b] = a < 2 || b < 2 ? primal(a, b) / n : 0.;
+                result.gap[a][b]    = gap(a, b) / n;
+              }
+            result.complementary[a] = complementary[a] / n;
+          }
+        result.mean_flux      = { { flux_x[0] / n, flux_y[1] / n } };
+        result.mean_magnitude = { { magnitude_x[0] / n, magnitude_y[1] / n } };
+        return result;
+      }
+    };
+  } // namespace
 
   CellEnergies
   CellTrialFields::energies() const
   {
-    CellEnergies result;
-    const double dx = grid.dx, dy = grid.dy;
-    // Sums of rows, then of the rows: round-off grows with the length of a row only.
-    CellEnergies row;
-    const auto   add_row = [&]() {
-      for (int a = 0; a < n_fields; ++a)
-        {
-          for (int b = 0; b < n_fields; ++b)
-            {
-              result.primal[a][b] += row.primal[a][b];
-              result.gap[a][b] += row.gap[a][b];
-            }
-          result.complementary[a] += row.complementary[a];
-        }
-      for (const int a : { 0, 1 })
-        {
-          result.mean_flux[a] += row.mean_flux[a];
-          result.mean_magnitude[a] += row.mean_magnitude[a];
-        }
-      row = CellEnergies();
-    };
-    std::size_t current_row = 0;
+    const double dx = grid.dx, dy = grid.dy, twist = (1 / (dx * dx) + 1 / (dy * dy)) / 12;
+    EnergySums   sums, row;
+    std::size_t  current_row = 0;
     for (std::size_t i = 0; i < cells.size(); ++i)
       {
         if (grid.coordinate(cells[i], 1) != current_row)
           {
-            add_row();
+            sums += row;
+            row         = EnergySums();
             current_row = grid.coordinate(cells[i], 1);
           }
         const auto    kg = drive(i);
         const auto   &c  = corners[i];
         const Values &ql = face_values(cells[i], left), &qr = face_values(cells[i], right),
                      &qb = face_values(cells[i], bottom), &qt = face_values(cells[i], top);
-        // Both fields are linear in the pixel: mean, and rise along x and y of each component.
-        Values px, py, pt, tx, ty, tx_x, ty_y;
-        for (int f = 0; f < n_fields; ++f)
-          {
-            const Differences<double> d(u[c[0]][f], u[c[1]][f], u[c[2]][f], u[c[3]][f]);
-            px[f]   = kg[0][f] + k[i] * (d.below + d.above) / (2 * dx);
-            py[f]   = kg[1][f] + k[i] * (d.left + d.right) / (2 * dy);
-            pt[f]   = k[i] * d.twist;
-            tx[f]   = (ql[f] + qr[f]) / (2 * dy) - px[f];
-            ty[f]   = (qb[f] + qt[f]) / (2 * dx) - py[f];
-            tx_x[f] = (qr[f] - ql[f]) / dy;
-            ty_y[f] = (qt[f] - qb[f]) / dx;
-          }
-        const double twist = (1 / (dx * dx) + 1 / (dy * dy)) / 12;
-        for (int a = 0; a < n_fields; ++a)
-          for (int b = a; b < n_fields; ++b)
-            {
-              if (a < 2) // that of two shear flows would be dominated by <c^2/k>
-                row.primal[a][b] += (px[a] * px[b] + py[a] * py[b] + pt[a] * pt[b] * twist) / k[i];
-              row.gap[a][b] += (tx[a] * tx[b] + ty[a] * ty[b] + (tx_x[a] * tx_x[b] + ty_y[a] * ty_y[b]) / 12
-                                + pt[a] * pt[b] * twist)
-                               / k[i];
-            }
-        for (int f = 0; f < n_fields; ++f)
-          {
-            const double qx = (ql[f] + qr[f]) / (2 * dy), qy = (qb[f] + qt[f]) / (2 * dx);
-            row.complementary[f] += (qx * qx + qy * qy + (tx_x[f] * tx_x[f] + ty_y[f] * ty_y[f]) / 12) / k[i];
-            if (f < 2)
-              {
-                row.mean_flux[f] += f == 0 ? qx : qy;
-                row.mean_magnitude[f] += std::abs(f == 0 ? qx : qy);
-              }
-          }
+        const Differences<Values> d(u[c[0]], u[c[1]], u[c[2]], u[c[3]]);
+        // All fields are linear in the pixel: mean and rise of each component. The rises of k grad u are across its
+        // components, those of q along them.
+        const Values px = kg[0] + (d.below + d.above) * (k[i] / (2 * dx)),
+                     py = kg[1] + (d.left + d.right) * (k[i] / (2 * dy));
+        const Values pt = d.twist * k[i];
+        const Values qx = (ql + qr) * (1 / (2 * dy)), qy = (qb + qt) * (1 / (2 * dx));
+        const Values rise_x = (qr - ql) * (1 / dy), rise_y = (qt - qb) * (1 / dx);
+        const double w = 1 / k[i];
+        EnergySums::add_square(row.primal, px, w);
+        EnergySums::add_square(row.primal, py, w);
+        EnergySums::add_square(row.primal, pt, w * twist);
+        EnergySums::add_square(row.gap, qx - px, w);
+        EnergySums::add_square(row.gap, qy - py, w);
+        EnergySums::add_square(row.gap, rise_x, w / 12);
+        EnergySums::add_square(row.gap, rise_y, w / 12);
+        EnergySums::add_square(row.gap, pt, w * twist);
+        row.complementary += (qx * qx + qy * qy + (rise_x * rise_x + rise_y * rise_y) * (1. / 12)) * w;
+        row.flux_x += qx;
+        row.flux_y += qy;
+        row.magnitude_x += qx.abs();
+        row.magnitude_y += qy.abs();
       }
-    add_row();
-    const double n = static_cast<double>(grid.size());
-    for (int a = 0; a < n_fields; ++a)
-      {
-        result.complementary[a] /= n;
-        for (int b = a; b < n_fields; ++b)
-          {
-            result.primal[a][b] /= n;
-            result.gap[a][b] /= n;
-            result.primal[b][a] = result.primal[a][b];
-            result.gap[b][a]    = result.gap[a][b];
-          }
-      }
-    for (const int a : { 0, 1 })
-      {
-        result.mean_flux[a] /= n;
-        result.mean_magnitude[a] /= n;
-      }
-    return result;
+    sums += row;
+    return sums.per_area(static_cast<double>(grid.size()));
   }
 } // namespace tribodraw

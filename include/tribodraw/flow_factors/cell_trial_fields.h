@@ -4,6 +4,8 @@
 #include <tribodraw/flow_factors/cell_gap.h>
 #include <tribodraw/flow_factors/cell_grid.h>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -40,7 +42,7 @@ namespace tribodraw
   {
   public:
     static constexpr int n_fields = 4;
-    using Values                  = std::array<double, n_fields>;
+    using Values                  = Eigen::Array4d; ///< of all fields
     /// Faces of a cell, and local numbers of its corners in x, then y.
     enum Face
     {
@@ -87,7 +89,7 @@ namespace tribodraw
     }
 
   private:
-    using SingleValues = std::array<float, n_fields>;
+    using SingleValues = Eigen::Array4f;
 
     const CellGrid &grid;
     const int       driven_axis;
@@ -120,7 +122,6 @@ namespace tribodraw
     std::vector<SingleValues> potential_residual() const;
     std::vector<SingleValues> circulation_residual() const;
     std::vector<SingleValues> descend(std::vector<SingleValues> residual, bool circulation, unsigned steps) const;
-    void                      balance(int field);
   };
 } // namespace tribodraw
 
