@@ -1,8 +1,6 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/material/hardening_law.h>
 
-#include <cmath>
-
 namespace tribodraw
 {
   namespace
@@ -16,8 +14,12 @@ namespace tribodraw
     public:
       explicit BergstroemVanLiempt(Parameters &parameters);
       FlowStress flow_stress(double strain, double rate) const override;
+      void       flow_stress_pack(const Pack &strain, const Pack &rate, FlowStressOf<Pack> &result) const override;
 
     private:
+      template <class Number>
+      FlowStressOf<Number> compute(const Number &strain, const Number &rate) const;
+
       double sigma0, dsigma_m, beta, omega, n, eps0; ///< static part [MPa, -]
       double sigma_dynamic, m, rate0;                ///< dynamic part [MPa, -, 1/s]
       double thermal = 0;                            ///< kB T / dG0
@@ -51,23 +53,36 @@ namespace tribodraw
       thermal         = kB * T / activation_energy;
     }
 
+    template <class Number>
+    TRIBODRAW_INLINE inline HardeningLaw::FlowStressOf<Number>
+    BergstroemVanLiempt::compute(const Number &strain, const Number &rate) const
+    {
+      const Number e       = strain + eps0;
+      const Number decay   = pack::exp(Number(-omega * e));
+      const Number bracket = 1. - decay;
+      const Number power   = pack::pow(bracket, n - 1);
+      // At rest nothing is left of the dynamic part.
+      const auto   moves   = rate > 1e-300;
+      const Number dynamic = pack::select(
+          moves, Number(1. + thermal * pack::log(Number(pack::select(moves, rate, Number(1.)) / rate0))), Number(0.));
+      const auto   acts          = dynamic > 0.;
+      const Number dynamic_power = sigma_dynamic * pack::pow(pack::select(acts, dynamic, Number(1.)), m - 1);
+      const Number zero          = 0.;
+      return { sigma0 + dsigma_m * (beta * e + power * bracket) + pack::select(acts, dynamic_power * dynamic, zero),
+               dsigma_m * (beta + n * omega * decay * power),
+               pack::select(acts, m * thermal * dynamic_power / pack::select(acts, rate, Number(1.)), zero) };
+    }
+
     HardeningLaw::FlowStress
     BergstroemVanLiempt::flow_stress(const double strain, const double rate) const
     {
-      const double e       = strain + eps0;
-      const double decay   = std::exp(-omega * e);
-      const double bracket = 1 - decay;
-      const double power   = std::pow(bracket, n - 1);
-      FlowStress   result{ sigma0 + dsigma_m * (beta * e + power * bracket),
-                         dsigma_m * (beta + n * omega * decay * power), 0. };
-      const double dynamic = rate > 0 ? 1 + thermal * std::log(rate / rate0) : 0.;
-      if (dynamic > 0)
-        {
-          const double dynamic_power = std::pow(dynamic, m - 1);
-          result.value += sigma_dynamic * dynamic_power * dynamic;
-          result.rate_slope = sigma_dynamic * m * dynamic_power * thermal / rate;
-        }
-      return result;
+      return compute(strain, rate);
+    }
+
+    void
+    BergstroemVanLiempt::flow_stress_pack(const Pack &strain, const Pack &rate, FlowStressOf<Pack> &result) const
+    {
+      pack::vectorised([&]() TRIBODRAW_INLINE { result = compute(strain, rate); });
     }
   } // namespace
 

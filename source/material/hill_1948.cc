@@ -1,7 +1,6 @@
 #include <tribodraw/base/parameters.h>
-#include <tribodraw/material/yield_locus.h>
 
-#include <cmath>
+#include "quadratic_locus.h"
 
 namespace tribodraw
 {
@@ -11,7 +10,7 @@ namespace tribodraw
     /// and 90 degrees to the rolling direction), normalised to the flow stress in rolling direction (G + H = 1):
     /// sigma^2 = sxx^2 - 2 H sxx syy + (F + H) syy^2 + 2 N sxy^2 with H = R0/(1+R0), F = H/R90,
     /// N = (R0+R90)(1+2 R45)/(2 R90 (1+R0)).
-    class Hill1948 : public YieldLocus
+    class Hill1948 : public QuadraticLocus
     {
     public:
       explicit Hill1948(Parameters &parameters)
@@ -23,27 +22,8 @@ namespace tribodraw
         const double H     = R0 / (1 + R0);
         const double F     = H / R90;
         const double N     = (R0 + R90) * (1 + 2 * R45) / (2 * R90 * (1 + R0));
-        P << 1., -H, 0., -H, F + H, 0., 0., 0., 2 * N;
+        set(1, -2 * H, F + H, 2 * N);
       }
-
-      double
-      equivalent_stress(const Vector3 &stress) const override
-      {
-        return std::sqrt(stress.dot(P * stress));
-      }
-
-      double
-      evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const override
-      {
-        const Vector3 Ps    = P * stress;
-        const double  value = std::sqrt(stress.dot(Ps));
-        gradient            = Ps / value;
-        hessian.noalias()   = (P - gradient * gradient.transpose()) / value;
-        return value;
-      }
-
-    private:
-      Matrix3 P; ///< sigma^2 = s . P s
     };
   } // namespace
 

@@ -1,8 +1,6 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/material/hardening_law.h>
 
-#include <cmath>
-
 namespace tribodraw
 {
   namespace
@@ -22,13 +20,26 @@ namespace tribodraw
       }
 
       FlowStress
-      flow_stress(double strain, double /*rate*/) const override
+      flow_stress(const double strain, double /*rate*/) const override
       {
-        const double value = K * std::pow(eps0 + strain, n);
-        return { value, n * value / (eps0 + strain), 0. };
+        return compute(strain);
+      }
+
+      void
+      flow_stress_pack(const Pack &strain, const Pack & /*rate*/, FlowStressOf<Pack> &result) const override
+      {
+        pack::vectorised([&]() TRIBODRAW_INLINE { result = compute(strain); });
       }
 
     private:
+      template <class Number>
+      TRIBODRAW_INLINE FlowStressOf<Number>
+                       compute(const Number &strain) const
+      {
+        const Number value = K * pack::pow(Number(eps0 + strain), n);
+        return { value, n * value / (eps0 + strain), 0. };
+      }
+
       const double K, eps0, n;
     };
   } // namespace

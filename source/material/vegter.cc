@@ -1,6 +1,4 @@
 #include <tribodraw/base/parameters.h>
-#include <tribodraw/material/cosine_interpolation.h>
-#include <tribodraw/material/mohr_circle.h>
 #include <tribodraw/material/yield_locus.h>
 
 #include <algorithm>
@@ -9,17 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "vegter_curves.h"
+
 namespace tribodraw
 {
   namespace
   {
-    /// A point of the locus at unit flow stress in the coordinates mean m = (s1+s2)/2 and radius R = (s1-s2)/2 of
-    /// Mohr's circle; they make the equibiaxial state (R = 0) free of cancellation.
     template <class Number>
-    struct Point
-    {
-      Number m, R;
-    };
+    using Point = MohrPoint<Number>;
 
     Point<double>
     from_principal(const double s1, const double s2)
@@ -33,15 +28,33 @@ namespace tribodraw
       return { Cosines::through(p0.m, p45.m, p90.m), Cosines::through(p0.R, p45.R, p90.R) };
     }
 
-    /// A Bezier curve of second order between two neighbouring reference points. The hinge point is
-    /// base + (numerator/denominator) tangent, all functions of c.
-    struct Sector
+    CosinesOf<Pack>
+    broadcast(const Cosines &f)
     {
-      Point<Cosines> far;  ///< end with the larger R/m
-      Point<Cosines> near; ///< end with the smaller R/m
-      Point<Cosines> base, tangent;
-      Cosines        numerator, denominator;
-    };
+      return { f.k0, f.k1, f.k2 };
+    }
+    MohrPoint<CosinesOf<Pack>>
+    broadcast(const MohrPoint<Cosines> &p)
+    {
+      return { broadcast(p.m), broadcast(p.R) };
+    }
+    VegterSector<Pack>
+    broadcast(const VegterSector<double> &s)
+    {
+      return { broadcast(s.far),     broadcast(s.near),      broadcast(s.base),
+               broadcast(s.tangent), broadcast(s.numerator), broadcast(s.denominator) };
+    }
+    VegterCurves<Pack>
+    broadcast(const VegterCurves<double> &c)
+    {
+      VegterCurves<Pack> r;
+      r.shear_uniaxial           = broadcast(c.shear_uniaxial);
+      r.uniaxial_plane_strain    = broadcast(c.uniaxial_plane_strain);
+      r.plane_strain_equibiaxial = broadcast(c.plane_strain_equibiaxial);
+      r.rho                      = c.rho;
+      r.f_bi                     = c.f_bi;
+      return r;
+    }
 
     /// Vegter's plane-stress yield locus: Bezier curves through measured points (pure shear SH, uniaxial UN, plane
     /// strain PS, equibiaxial BI) with measured normals at 0, 45 and 90 degrees to the rolling direction.
@@ -63,6 +76,7 @@ namespace tribodraw
       explicit Vegter(Parameters &parameters);
       double equivalent_stress(const Vector3 &stress) const override;
       double evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const override;
+      void   evaluate_pack(const MohrStress<Pack> &stress, LocusDerivatives<Pack> &result) const override;
 
     private:
       struct Data
@@ -71,31 +85,13 @@ namespace tribodraw
         double              equibiaxial, rho;
         bool                tangent_hinges;
       };
-      /// The stress after use of the symmetry e(-s) = e(s): mean, radius, cos and sin of 2 theta.
-      struct State
-      {
-        double        m, R, c, q;
-        double        sign;        ///< -1 if the stress was reversed
-        double        apex_weight; ///< 1, or R/(apex_radius |m|) if R was raised to apex_radius |m|
-        const Sector *sector;
-      };
+      static Data read(Parameters &parameters);
+      static bool complete(Parameters &parameters, Data &data);
+      void        construct(const Data &data);
+      void        check_convexity(Parameters &parameters) const;
 
-      static Data     read(Parameters &parameters);
-      static bool     complete(Parameters &parameters, Data &data);
-      void            construct(const Data &data);
-      void            check_convexity(Parameters &parameters) const;
-      State           locate(const Vector3 &stress) const;
-      MohrDerivatives derivatives(const State &state) const;
-
-      Sector shear_uniaxial, uniaxial_plane_strain, plane_strain_equibiaxial;
-
-      Vector3 equibiaxial_gradient;
-
-      /// Closer to the equibiaxial state than this fraction of the mean stress the gradient is interpolated linearly
-      /// between that state and this radius, and the second derivative, whose limit depends on the direction of
-      /// approach, is that at this radius. 1e-7 balances round-off (1e-16/1e-7) against the error of the interpolation
-      /// (1e-7 squared).
-      static constexpr double apex_radius = 1e-7;
+      VegterCurves<double> curves;
+      VegterCurves<Pack>   pack_curves;
     };
 
     Vegter::Vegter(Parameters &parameters)
@@ -104,6 +100,7 @@ namespace tribodraw
       if (!complete(parameters, data) || parameters.documentation_mode())
         return;
       construct(data);
+      pack_curves = broadcast(curves);
       check_convexity(parameters);
     }
 
@@ -188,7 +185,6 @@ namespace tribodraw
           hinge_up[j]         = from_principal(f_ps, up2);
           hinge_pb[j]         = from_principal(f_ps, pb2);
         }
-      equibiaxial_gradient = Vector3(1, data.rho, 0) / ((1 + data.rho) * data.equibiaxial);
       const auto sh = through(SH[0], SH[1], SH[2]), un = through(UN[0], UN[1], UN[2]),
                  ps = through(PS[0], PS[1], PS[2]), bi = through(BI[0], BI[1], BI[2]);
       const auto su  = through(hinge_su[0], hinge_su[1], hinge_su[2]);
@@ -198,21 +194,23 @@ namespace tribodraw
         return Cosines{ a.k0 + s * b.k0, a.k1 + s * b.k1, a.k2 + s * b.k2 };
       };
       const Cosines zero{}, one{ 1, 0, 0 };
-      shear_uniaxial           = { sh, un, su, { zero, zero }, zero, one };
-      uniaxial_plane_strain    = { un, ps, up, { zero, zero }, zero, one };
-      plane_strain_equibiaxial = { ps, bi, pb, { zero, zero }, zero, one };
+      curves.rho                      = data.rho;
+      curves.f_bi                     = data.equibiaxial;
+      curves.shear_uniaxial           = { sh, un, su, { zero, zero }, zero, one };
+      curves.uniaxial_plane_strain    = { un, ps, up, { zero, zero }, zero, one };
+      curves.plane_strain_equibiaxial = { ps, bi, pb, { zero, zero }, zero, one };
       if (!data.tangent_hinges)
         return;
       // At the test angles UN lies between its two hinge points on the tangent, so their difference has its direction.
       const Point<Cosines> tangent{ sum(up.m, su.m, -1), sum(up.R, su.R, -1) };
       // The tangent in SH keeps R, that in PS keeps m + R.
-      shear_uniaxial = { sh, un, un, tangent, sum(sh.R, un.R, -1), tangent.R };
-      uniaxial_plane_strain
+      curves.shear_uniaxial = { sh, un, un, tangent, sum(sh.R, un.R, -1), tangent.R };
+      curves.uniaxial_plane_strain
           = { un, ps, un, tangent, sum(sum(ps.m, ps.R, 1), sum(un.m, un.R, 1), -1), sum(tangent.m, tangent.R, 1) };
       // The tangent in BI has the direction ((rho-1) c, rho+1) in (m,R) at every angle.
       const double         k0 = data.rho + 1, k1 = data.rho - 1;
       const Point<Cosines> apex_tangent{ { 0, k1, 0 }, { k0, 0, 0 } };
-      plane_strain_equibiaxial = { ps, bi, bi, apex_tangent, sum(sum(ps.m, ps.R, 1), bi.m, -1), { k0, k1, 0 } };
+      curves.plane_strain_equibiaxial = { ps, bi, bi, apex_tangent, sum(sum(ps.m, ps.R, 1), bi.m, -1), { k0, k1, 0 } };
     }
 
     // Scan of the eigenvalues of the second derivative over all stress directions. Measured data have none below zero
@@ -248,124 +246,26 @@ namespace tribodraw
           }
     }
 
-    inline Vegter::State
-    Vegter::locate(const Vector3 &stress) const
-    {
-      State        s;
-      const double a = 0.5 * (stress[0] - stress[1]), b = stress[2];
-      s.m                = 0.5 * (stress[0] + stress[1]);
-      s.R                = std::sqrt(a * a + b * b);
-      s.c                = s.R > 0 ? a / s.R : 1.;
-      s.q                = s.R > 0 ? b / s.R : 0.;
-      const double R_min = apex_radius * std::abs(s.m);
-      s.apex_weight      = 1;
-      if (s.R < R_min)
-        {
-          s.apex_weight = s.R / R_min;
-          s.R           = R_min;
-        }
-      s.sign          = 1;
-      const Sector &S = shear_uniaxial, &P = uniaxial_plane_strain;
-      if (s.m * S.far.R.value(s.c) < s.R * S.far.m.value(s.c)) // beyond SH
-        {
-          s.m    = -s.m;
-          s.c    = -s.c;
-          s.q    = -s.q;
-          s.sign = -1;
-        }
-      if (s.m < s.R)
-        s.sector = &S;
-      else if (s.m * P.near.R.value(s.c) < s.R * P.near.m.value(s.c))
-        s.sector = &P;
-      else
-        s.sector = &plane_strain_equibiaxial;
-      return s;
-    }
-
-    /// Place t in [0,1] (0: near end) where the ray (m,R) meets the curve near + t l1 + t^2 l2: the cross product
-    /// v0 + v1 t + v2 t^2 of ray and curve is not positive at t = 0, not negative at t = 1 and rises through its root.
-    inline double
-    intersection(const double v0, const double v1, const double v2)
-    {
-      const double root = std::sqrt(std::max(0., v1 * v1 - 4 * v0 * v2));
-      const double sum  = v1 + root;
-      return sum > 0 ? std::min(1., std::max(0., -2 * v0 / sum)) : 0.;
-    }
-
     double
     Vegter::equivalent_stress(const Vector3 &stress) const
     {
       if (stress[0] == 0 && stress[1] == 0 && stress[2] == 0)
         return 0;
-      const State s = locate(stress);
-      if (s.apex_weight < 1)
-        {
-          Vector3 n;
-          Matrix3 H;
-          return evaluate(stress, n, H);
-        }
-      const Sector &S      = *s.sector;
-      const double  factor = S.numerator.value(s.c) / S.denominator.value(s.c);
-      const double  near_m = S.near.m.value(s.c), near_R = S.near.R.value(s.c);
-      const double  hinge_m = S.base.m.value(s.c) + factor * S.tangent.m.value(s.c) - near_m;
-      const double  hinge_R = S.base.R.value(s.c) + factor * S.tangent.R.value(s.c) - near_R;
-      const double  l1_m = 2 * hinge_m, l1_R = 2 * hinge_R;
-      const double  l2_m = S.far.m.value(s.c) - near_m - l1_m, l2_R = S.far.R.value(s.c) - near_R - l1_R;
-      const double  t = intersection(s.m * near_R - s.R * near_m, s.m * l1_R - s.R * l1_m, s.m * l2_R - s.R * l2_m);
-      return (s.m + s.R) / (near_m + near_R + t * (l1_m + l1_R + t * (l2_m + l2_R)));
-    }
-
-    // With the Bezier curve G(t, c) in (m,R) and ' = d/dt: (m,R) = e G. At fixed c e is homogeneous in (m,R), its
-    // gradient g normal to G' with g.G = 1; at fixed (m,R) t moves with c so that G stays on the ray.
-    inline MohrDerivatives
-    Vegter::derivatives(const State &s) const
-    {
-      const double  c = s.c;
-      const Sector &S = *s.sector;
-      // G = near + t l1 + t^2 l2.
-      const Jet    factor = Jet(S.numerator, c) / Jet(S.denominator, c);
-      const Jet    near_m(S.near.m, c), near_R(S.near.R, c);
-      const Jet    l1_m = (Jet(S.base.m, c) + factor * Jet(S.tangent.m, c) - near_m) * 2;
-      const Jet    l1_R = (Jet(S.base.R, c) + factor * Jet(S.tangent.R, c) - near_R) * 2;
-      const Jet    l2_m = Jet(S.far.m, c) - near_m - l1_m, l2_R = Jet(S.far.R, c) - near_R - l1_R;
-      const double t
-          = intersection(s.m * near_R.v - s.R * near_m.v, s.m * l1_R.v - s.R * l1_m.v, s.m * l2_R.v - s.R * l2_m.v);
-      const Jet    Gm = near_m + (l1_m + l2_m * t) * t, GR = near_R + (l1_R + l2_R * t) * t;
-      const double Gm_t = l1_m.v + 2 * t * l2_m.v, GR_t = l1_R.v + 2 * t * l2_R.v;
-      const double Gm_tc = l1_m.d + 2 * t * l2_m.d, GR_tc = l1_R.d + 2 * t * l2_R.d;
-
-      const double    iD = 1 / (Gm.v * GR_t - GR.v * Gm_t);
-      MohrDerivatives e;
-      e.e               = (s.m + s.R) / (Gm.v + GR.v);
-      e.m               = GR_t * iD;
-      e.R               = -Gm_t * iD;
-      const double g_Gc = e.m * Gm.d + e.R * GR.d;
-      e.c               = -e.e * g_Gc;
-      const double K    = 2 * (Gm_t * l2_R.v - GR_t * l2_m.v) * iD * iD; // G' x G'' / (G x G')^2
-      const double k    = K * iD / e.e;
-      e.mm              = k * GR.v * GR.v;
-      e.mR              = -k * GR.v * Gm.v;
-      e.RR              = k * Gm.v * Gm.v;
-      const double t_c  = -(Gm.v * GR.d - GR.v * Gm.d) * iD;
-      const double D_c  = (Gm.d * GR_t + Gm.v * GR_tc - GR.d * Gm_t - GR.v * Gm_tc) * iD;
-      e.mc              = GR_tc * iD - e.m * D_c - GR.v * K * t_c;
-      e.Rc              = -Gm_tc * iD - e.R * D_c + Gm.v * K * t_c;
-      e.cc
-          = -e.c * g_Gc - e.e * (e.mc * Gm.d + e.Rc * GR.d + e.m * (Gm.dd + Gm_tc * t_c) + e.R * (GR.dd + GR_tc * t_c));
-      return e;
+      return curves.equivalent_stress({ 0.5 * (stress[0] + stress[1]), 0.5 * (stress[0] - stress[1]), stress[2] });
     }
 
     double
     Vegter::evaluate(const Vector3 &stress, Vector3 &gradient, Matrix3 &hessian) const
     {
-      const State           s = locate(stress);
-      const MohrDerivatives e = derivatives(s);
-      mohr_to_cartesian(e, s.c, s.q, s.R, gradient, hessian);
-      gradient *= s.sign;
-      if (s.apex_weight == 1)
-        return e.e;
-      gradient = s.sign * (1 - s.apex_weight) * equibiaxial_gradient + s.apex_weight * gradient;
-      return gradient.dot(stress); // Euler: e = n.s
+      const auto r = curves.evaluate({ 0.5 * (stress[0] + stress[1]), 0.5 * (stress[0] - stress[1]), stress[2] });
+      to_cartesian(r, gradient, hessian);
+      return r.e;
+    }
+
+    void
+    Vegter::evaluate_pack(const MohrStress<Pack> &stress, LocusDerivatives<Pack> &result) const
+    {
+      pack::vectorised([&]() TRIBODRAW_INLINE { result = pack_curves.evaluate(stress); });
     }
   } // namespace
 

@@ -1,6 +1,8 @@
 #ifndef tribodraw_material_hardening_law_h
 #define tribodraw_material_hardening_law_h
 
+#include <tribodraw/material/pack.h>
+
 namespace tribodraw
 {
   class Parameters;
@@ -9,12 +11,15 @@ namespace tribodraw
   class HardeningLaw
   {
   public:
-    struct FlowStress
+    template <class Number>
+    struct FlowStressOf
     {
-      double value;        ///< [MPa]
-      double strain_slope; ///< d value / d strain [MPa]
-      double rate_slope;   ///< d value / d rate [MPa s]
+      Number value;        ///< [MPa]
+      Number strain_slope; ///< d value / d strain [MPa]
+      Number rate_slope;   ///< d value / d rate [MPa s]
     };
+    using FlowStress = FlowStressOf<double>;
+
     virtual ~HardeningLaw() = default;
     static const char *
     kind()
@@ -23,6 +28,9 @@ namespace tribodraw
     }
     /// @param strain equivalent plastic strain >= 0; @param rate its rate [1/s] >= 0
     virtual FlowStress flow_stress(double strain, double rate) const = 0;
+    /// The same for four points at once. A law may implement it in vector arithmetic, for speed; otherwise it calls the
+    /// function above for each.
+    virtual void flow_stress_pack(const Pack &strain, const Pack &rate, FlowStressOf<Pack> &result) const;
   };
 } // namespace tribodraw
 
