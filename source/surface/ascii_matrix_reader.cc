@@ -112,11 +112,14 @@ namespace tribodraw
             if (raw.ny == 0)
               separation = separation_of(row);
             const std::size_t n = count_fields(row, separation);
-            if (raw.ny > 0 && n != raw.nx)
+            // A separator at the end of a row stands before an empty field, which is a missing point, or means nothing.
+            const bool last_is_missing = separation.separator && row.back() == separation.separator && n + 1 == raw.nx;
+            if (raw.ny > 0 && n != raw.nx && !last_is_missing)
               throw InputError(describe_error("the rows of the text matrix differ in length (truncated file?).",
                                               rows.where(), std::to_string(n) + " numbers",
                                               std::to_string(raw.nx) + " as in the first row"));
-            raw.nx = n;
+            if (raw.ny == 0)
+              raw.nx = n;
           }
         raw.pixel_size  = header.pixel_size(raw.nx, raw.ny, file);
         raw.height_unit = header.height_unit();

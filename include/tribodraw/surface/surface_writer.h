@@ -23,6 +23,16 @@ namespace tribodraw
   /// Text matrix in um, with the size of the map in comment lines that the reader understands. Heights read back to
   /// the last bits. The first line is the row with the largest y, as one sees the surface from above.
   void write_ascii_matrix(const HeightMap &map, const std::filesystem::path &file);
+
+  /// NumPy array of 64-bit floating point numbers in um, first row at the largest y. The format has no place for pixel
+  /// size and unit.
+  void write_npy(const HeightMap &map, const std::filesystem::path &file);
+
+  /// SDF (ISO 25178-71) version 1.0, or 2.0 if a count exceeds 65535, with 64-bit floating point numbers. Heights read
+  /// back to the last bit.
+  void write_sdf_binary(const HeightMap &map, const std::filesystem::path &file);
+  /// SDF version 1.0 as text, shortest decimal numbers. Heights read back to the last bit.
+  void write_sdf_text(const HeightMap &map, const std::filesystem::path &file);
 } // namespace tribodraw
 
 #endif

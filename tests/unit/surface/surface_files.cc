@@ -190,6 +190,7 @@ TEST_F(SurfaceFiles, MissingPointsAreNaNAndRefusedByReadSurface)
   EXPECT_TRUE(std::isnan(map(1, 1)));
   EXPECT_DOUBLE_EQ(map(2, 0), 6e-3);
   EXPECT_EQ(n_missing(read_surface_file(write("1;;3\n4;5;6\n"), both)), 1u);
+  EXPECT_EQ(n_missing(read_surface_file(write("1;;3\n4;5;\n"), both)), 2u);
   EXPECT_EQ(
       n_missing(read_surface_file(write(gsf("XRes = 3\nYRes = 2\n" + size_of_gsf + units_of_gsf,
                                             floats({ 1e-6f, std::numeric_limits<float>::quiet_NaN(), 0, 0, 0, 0 }))))),
@@ -313,7 +314,7 @@ TEST_F(SurfaceFiles, MalformedTextIsRejected)
     { "1,5 2,5\n3,5 4,5\n", "decimal commas" },
     { "1 2 3\n4 5 6", "line 2: the file ends inside a line" },
     { "BAD nan\n*** ---\n", "all points of the surface are missing" },
-    { "1;;3\n4;5;\n", "differ in length" },
+    { "1;2;\n4;5;6\n", "differ in length" },
     { "1 inf 3\n4 5 6\n", "line 1, column 2: not a finite number" },
     { "1 1e999 3\n4 5 6\n", "`1e999`" },
     { "1 2 3\n", "at least 2 x 2" },
