@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace tribodraw
 {
@@ -11,14 +11,16 @@ namespace tribodraw
   {
     constexpr double pi = 3.14159265358979323846;
 
-    /// Sums over the pixels of a patch; coordinates in pixels, so that the sums are exact integers.
+    /// Sums over the pixels of a patch; coordinates in pixels relative to the patch's first, so that they are exact
+    /// integers.
     struct Sums
     {
-      double n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, height = 0;
-      double lowest = 0, tool_rim = 0, plateau_rim = 0;
+      std::int64_t first_x = 0, first_y = 0;
+      double       n = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, height = 0, square_slope = 0;
+      double       lowest = std::numeric_limits<double>::infinity(), tool_rim = 0, plateau_rim = 0;
 
       void
-      add(const double px, const double py, const double t)
+      add(const double px, const double py, const double t, const double slope2)
       {
         n += 1;
         x += px;
@@ -27,7 +29,8 @@ namespace tribodraw
         xy += px * py;
         yy += py * py;
         height += t;
-        lowest = t; // pixels come from the highest to the lowest
+        square_slope += slope2;
+        lowest = std::min(lowest, t);
       }
     };
 
@@ -65,34 +68,85 @@ namespace tribodraw
         }
       return i;
     }
+
+    /// The earlier pixel of the map becomes the root: results do not depend on the order of the unions.
+    void
+    unite(std::vector<std::int32_t> &parent, const std::int32_t i, const std::int32_t j)
+    {
+      const std::int32_t r = find_root(parent, i), q = find_root(parent, j);
+      parent[std::max(r, q)] = std::min(r, q);
+    }
+
+    /// The image of a distance nearest to zero on a ring of n.
+    std::int64_t
+    nearest_image(const std::int64_t distance, const std::int64_t n)
+    {
+      return distance > n / 2 ? distance - n : distance < -(n / 2) ? distance + n : distance;
+    }
   } // namespace
 
-  std::vector<std::uint32_t>
-  pixels_by_height(const HeightMap &map)
+  double
+  ContactPatch::depth_of_volume() const
   {
-    std::vector<std::uint32_t> order(map.z.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](const std::uint32_t i, const std::uint32_t j) {
-      return map.z[i] > map.z[j] || (map.z[i] == map.z[j] && i < j);
-    });
-    return order;
+    return 2. * volume / area;
   }
 
-  PlateauContact::PlateauContact(const HeightMap &sheet, const HeightMap &tool,
-                                 const std::vector<std::uint32_t> &tool_order, const double cut_height)
-      : map(tool), rank(tool.size(), -1)
+  double
+  ContactPatch::depth_of_slope() const
   {
-    if (sheet.nx != tool.nx || sheet.ny != tool.ny || tool_order.size() != tool.size())
-      throw InputError(describe_error("Contact patches need sheet and tool heights on the same grid",
-                                      "boundary friction",
-                                      std::to_string(sheet.nx) + " x " + std::to_string(sheet.ny) + " and "
-                                          + std::to_string(tool.nx) + " x " + std::to_string(tool.ny) + " pixels"));
-    for (const std::uint32_t i : tool_order)
+    return slope / std::hypot(1. / a, 1. / b);
+  }
+
+  PlateauContact::PlateauContact(const HeightMap &sheet, const ToolSurface &tool, const double cut_height)
+      : surface(tool), periodic(sheet.periodic && tool.map.periodic), rank(tool.map.size(), -1)
+  {
+    if (sheet.nx != tool.map.nx || sheet.ny != tool.map.ny)
+      throw InputError(
+          describe_error("Contact patches need sheet and tool heights on the same grid", "boundary friction",
+                         std::to_string(sheet.nx) + " x " + std::to_string(sheet.ny) + " and "
+                             + std::to_string(tool.map.nx) + " x " + std::to_string(tool.map.ny) + " pixels"));
+    for (const std::uint32_t i : tool.order)
       if (sheet.z[i] >= cut_height)
         {
           rank[i] = static_cast<std::int32_t>(pixel.size());
           pixel.push_back(i);
         }
+  }
+
+  std::vector<std::int32_t>
+  PlateauContact::label(const std::int32_t n) const
+  {
+    // Raster scan: a pixel joins its neighbours to the left and in the row before.
+    const auto nx = static_cast<std::int32_t>(surface.map.nx), ny = static_cast<std::int32_t>(surface.map.ny);
+    std::vector<std::int32_t> parent(surface.map.size(), -1);
+    const auto                touches = [&](const std::int32_t i) { return rank[i] >= 0 && rank[i] < n; };
+    for (std::int32_t iy = 0; iy < ny; ++iy)
+      for (std::int32_t ix = 0; ix < nx; ++ix)
+        {
+          const std::int32_t i = iy * nx + ix;
+          if (!touches(i))
+            continue;
+          parent[i] = i;
+          if (ix > 0 && touches(i - 1))
+            unite(parent, i, i - 1);
+          for (std::int32_t jx = std::max(ix - 1, 0); iy > 0 && jx <= std::min(ix + 1, nx - 1); ++jx)
+            if (touches(i - ix - nx + jx))
+              unite(parent, i, i - ix - nx + jx);
+        }
+    const auto join_across
+        = [&](const std::int32_t ix, const std::int32_t iy, const std::int32_t jx, const std::int32_t jy) {
+            const std::int32_t i = iy * nx + ix, j = ((jy + ny) % ny) * nx + (jx + nx) % nx;
+            if (touches(i) && touches(j))
+              unite(parent, i, j);
+          };
+    for (std::int32_t step = -1; periodic && step <= 1; ++step)
+      {
+        for (std::int32_t iy = 0; iy < ny; ++iy)
+          join_across(0, iy, -1, iy + step);
+        for (std::int32_t ix = 0; ix < nx; ++ix)
+          join_across(ix, 0, ix + step, -1);
+      }
+    return parent;
   }
 
   std::vector<ContactPatch>
@@ -101,60 +155,61 @@ namespace tribodraw
     const std::size_t n = std::min(n_pixels, pixel.size());
     if (n == 0)
       return {};
-    const auto for_neighbours = [&](const std::uint32_t p, const auto &visit) {
-      const std::size_t nx = map.nx, ix = p % nx, iy = p / nx;
-      for (std::size_t jy = iy > 0 ? iy - 1 : 0; jy <= std::min(iy + 1, map.ny - 1); ++jy)
-        for (std::size_t jx = ix > 0 ? ix - 1 : 0; jx <= std::min(ix + 1, nx - 1); ++jx)
-          visit(rank[jy * nx + jx]);
-    };
-
-    std::vector<std::int32_t> parent(n);
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(n); ++k)
-      {
-        parent[k] = k;
-        for_neighbours(pixel[k], [&](const std::int32_t neighbour) {
-          if (neighbour < 0 || neighbour >= k)
-            return;
-          // The earlier pixel becomes the root: results do not depend on the order of the unions.
-          const std::int32_t r = find_root(parent, k), q = find_root(parent, neighbour);
-          parent[std::max(r, q)] = std::min(r, q);
-        });
-      }
+    const HeightMap          &map = surface.map;
+    const auto                nx = static_cast<std::int64_t>(map.nx), ny = static_cast<std::int64_t>(map.ny);
+    std::vector<std::int32_t> parent = label(static_cast<std::int32_t>(n));
 
     const double              plane = map.z[pixel[std::min(n, pixel.size() - 1)]];
-    std::vector<std::int32_t> patch_of(n, -1);
-    std::vector<Sums>         sums;
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(n); ++k)
-      {
-        const std::int32_t root = find_root(parent, k);
-        if (patch_of[root] < 0)
-          {
-            patch_of[root] = static_cast<std::int32_t>(sums.size());
-            sums.emplace_back();
-          }
-        Sums &s = sums[patch_of[root]];
-        s.add(pixel[k] % map.nx, pixel[k] / map.nx, map.z[pixel[k]] - plane);
-        for_neighbours(pixel[k], [&](const std::int32_t neighbour) {
-          s.tool_rim += neighbour >= static_cast<std::int32_t>(n);
-          s.plateau_rim += neighbour < 0;
-        });
-      }
+    std::vector<std::int32_t> patch_of(map.size(), -1);
+    std::vector<Sums>         all;
+    for (std::int64_t iy = 0; iy < ny; ++iy)
+      for (std::int64_t ix = 0; ix < nx; ++ix)
+        {
+          const std::int64_t i = iy * nx + ix;
+          if (parent[i] < 0)
+            continue;
+          const std::int32_t root = find_root(parent, static_cast<std::int32_t>(i));
+          if (patch_of[root] < 0)
+            {
+              patch_of[root] = static_cast<std::int32_t>(all.size());
+              all.emplace_back();
+              all.back().first_x = ix;
+              all.back().first_y = iy;
+            }
+          Sums        &sums = all[patch_of[root]];
+          std::int64_t px = ix - sums.first_x, py = iy - sums.first_y;
+          if (periodic)
+            {
+              px = nearest_image(px, nx);
+              py = nearest_image(py, ny);
+            }
+          sums.add(static_cast<double>(px), static_cast<double>(py), map.z[i] - plane, surface.square_slope[i]);
+          for (std::int64_t jy = iy - 1; jy <= iy + 1; ++jy)
+            for (std::int64_t jx = ix - 1; jx <= ix + 1; ++jx)
+              {
+                if (!periodic && (jx < 0 || jx >= nx || jy < 0 || jy >= ny))
+                  continue;
+                const std::int32_t neighbour = rank[((jy + ny) % ny) * nx + (jx + nx) % nx];
+                sums.tool_rim += neighbour >= static_cast<std::int32_t>(n);
+                sums.plateau_rim += neighbour < 0;
+              }
+        }
 
     std::vector<ContactPatch> result;
-    result.reserve(sums.size());
-    for (const Sums &s : sums)
+    result.reserve(all.size());
+    for (const Sums &sums : all)
       {
-        const double rim         = s.tool_rim + s.plateau_rim;
-        const double base        = rim > 0 ? s.lowest * s.plateau_rim / rim : s.lowest; // above the plane
-        const double mean_height = std::max(0., s.height / s.n - base);
+        const double rim         = sums.tool_rim + sums.plateau_rim;
+        const double base        = rim > 0 ? sums.lowest * sums.plateau_rim / rim : sums.lowest; // above the plane
+        const double mean_height = std::max(0., sums.height / sums.n - base);
         ContactPatch patch;
-        patch.pixels   = static_cast<std::size_t>(s.n);
-        patch.area     = s.n * pixel_area();
+        patch.pixels   = static_cast<std::size_t>(sums.n);
+        patch.area     = sums.n * pixel_area();
         patch.volume   = mean_height * patch.area;
-        patch.centre_x = s.x / s.n * map.dx;
-        patch.centre_y = s.y / s.n * map.dy;
-        patch.w        = 2. * mean_height;
-        fit_ellipse(s, map.dx, map.dy, patch);
+        patch.slope    = std::sqrt(sums.square_slope / sums.n);
+        patch.centre_x = (static_cast<double>(sums.first_x) + sums.x / sums.n) * map.dx;
+        patch.centre_y = (static_cast<double>(sums.first_y) + sums.y / sums.n) * map.dy;
+        fit_ellipse(sums, map.dx, map.dy, patch);
         result.push_back(patch);
       }
     return result;

@@ -16,9 +16,10 @@ namespace tribodraw
       explicit PowerLaw(Parameters &parameters)
           : exponent(parameters.quantity("m", "", Range{ 0., 1., true }.usual(0.5, 1.),
                                          "Exponent of the pressure in tau_BL = c0 P0^m.")),
-            coefficient(
-                parameters.quantity("c0", coefficient_unit(exponent), Range::positive(),
-                                    "Coefficient of tau_BL = c0 P0^m; its unit is a pressure to the power 1 - m."))
+            coefficient(parameters.quantity(
+                "c0", coefficient_unit(parameters.documentation_mode() ? 0.75 : exponent), Range::positive(),
+                "Coefficient of tau_BL = c0 P0^m. Its unit follows from m: Pa^(1-m), with any unit of pressure. For "
+                "m = 0.75 that is Pa^0.25; for m = 1 it is a plain number, the friction coefficient."))
       {
       }
 

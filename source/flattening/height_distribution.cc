@@ -44,12 +44,12 @@ namespace tribodraw
           throw InputError(describe_error("A height is not a finite number", "flattening", "", "finite heights"));
         sum.add(z);
       }
-    const double   n    = static_cast<double>(height.size());
-    const double   mean = sum.value() / n;
+    const double n = static_cast<double>(height.size());
+    mean_height    = sum.value() / n;
     CompensatedSum squares;
     for (double &z : height)
       {
-        z -= mean;
+        z -= mean_height;
         squares.add(z * z);
       }
     root_mean_square = std::sqrt(squares.value() / n);
@@ -81,6 +81,18 @@ namespace tribodraw
   HeightDistribution::sq() const
   {
     return root_mean_square;
+  }
+
+  double
+  HeightDistribution::mean() const
+  {
+    return mean_height;
+  }
+
+  double
+  HeightDistribution::nth_highest(const std::size_t n) const
+  {
+    return height[height.size() - n];
   }
 
   double

@@ -1,43 +1,37 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/flattening/asperity_model.h>
 
-#include <cmath>
-#include <limits>
-
 namespace tribodraw
 {
   namespace
   {
-    /// Every plateau carries the same hardness, P = H alpha with H = B sigma_y; bulk strain does not flatten.
+    /// Every plateau carries the same hardness, P = H alpha with H = B sigma_y.
     class IdealPlastic : public AsperityModel
     {
     public:
       explicit IdealPlastic(Parameters &parameters)
-          : hardness_over_shear_strength(
-              std::sqrt(3.)
-              * parameters.quantity("Hardness over flow stress", "", Range::positive().usual(1, 6),
-                                    "Indentation hardness divided by the flow stress (Tabor: 2.8)."))
+          : ratio(parameters.quantity("Hardness over flow stress", "", Range::positive().usual(1, 6),
+                                      "Indentation hardness divided by the flow stress (Tabor: 2.8)."))
       {
       }
 
       double
-      normal_load(const double alpha, const double k) const override
+      normal_load(const PlateauState &state, const SheetStrength &strength) const override
       {
-        return hardness_over_shear_strength * k * alpha;
+        return hardness(strength) * state.contact_fraction;
       }
-
       double
-      strain_rate_number(double, double, double) const override
+      hardness(const SheetStrength &strength) const override
       {
-        return std::numeric_limits<double>::infinity();
+        return ratio * strength.flow_stress();
       }
 
     private:
-      const double hardness_over_shear_strength;
+      const double ratio;
     };
   } // namespace
 
   TRIBODRAW_REGISTER(AsperityModel, IdealPlastic, "ideal plastic",
-                     "Constant hardness: contact fraction = solid pressure / hardness; bulk strain does not flatten.",
+                     "Constant hardness: contact fraction = solid pressure / hardness.",
                      "F.P. Bowden, D. Tabor: The Friction and Lubrication of Solids. Oxford 1950")
 } // namespace tribodraw

@@ -1,9 +1,6 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/flattening/asperity_model.h>
 
-#include <cmath>
-#include <limits>
-
 namespace tribodraw
 {
   namespace
@@ -13,32 +10,29 @@ namespace tribodraw
     {
     public:
       explicit PullenWilliamson(Parameters &parameters)
-          : hardness_over_shear_strength(
-              std::sqrt(3.)
-              * parameters.quantity("Hardness over flow stress", "", Range::positive().usual(1, 6),
-                                    "Indentation hardness divided by the flow stress (Tabor: 2.8)."))
+          : ratio(parameters.quantity("Hardness over flow stress", "", Range::positive().usual(1, 6),
+                                      "Indentation hardness divided by the flow stress (Tabor: 2.8)."))
       {
       }
 
       double
-      normal_load(const double alpha, const double k) const override
+      normal_load(const PlateauState &state, const SheetStrength &strength) const override
       {
-        return hardness_over_shear_strength * k * alpha / (1. - alpha);
+        return hardness(strength) * state.contact_fraction / (1. - state.contact_fraction);
       }
-
       double
-      strain_rate_number(double, double, double) const override
+      hardness(const SheetStrength &strength) const override
       {
-        return std::numeric_limits<double>::infinity();
+        return ratio * strength.flow_stress();
       }
 
     private:
-      const double hardness_over_shear_strength;
+      const double ratio;
     };
   } // namespace
 
   TRIBODRAW_REGISTER(AsperityModel, PullenWilliamson, "Pullen-Williamson",
-                     "Contact fraction = P / (P + hardness): raised valleys resist; bulk strain does not flatten.",
+                     "Contact fraction = P / (P + hardness): raised valleys resist.",
                      "J. Pullen, J.B.P. Williamson: On the plastic contact of rough surfaces. "
                      "Proc. R. Soc. Lond. A 327 (1972) 159-173")
 } // namespace tribodraw

@@ -2,46 +2,35 @@
 #include <tribodraw/flattening/asperity_model.h>
 
 #include <cmath>
-#include <limits>
 
 namespace tribodraw
 {
   namespace
   {
-    /// Upper-bound fits of Wilson and Sheu (1988) for the effective hardness of asperities on a straining sheet,
-    ///   H/k = 2 / ( f1(A) E + f2(A) ),   P = A H.
-    /// Load alone is the branch E = 0, so that straining starts without a jump.
+    /// Upper-bound fit of Wilson and Sheu (1988) for plateaus on a sheet that does not strain (their E = 0):
+    ///   P / (A k) = 2 / f2(A),   1/f2 = 2.571 - A - A ln(1 - A).
     class WilsonSheu : public AsperityModel
     {
     public:
       explicit WilsonSheu(Parameters &) {}
 
       double
-      normal_load(const double alpha, const double k) const override
+      normal_load(const PlateauState &state, const SheetStrength &strength) const override
       {
-        return alpha > 0 ? 2. * k * alpha * inverse_f2(alpha) : 0.;
+        const double alpha = state.contact_fraction;
+        return alpha > 0 ? 2. * strength.shear_strength * alpha * (2.571 - alpha - alpha * std::log1p(-alpha)) : 0.;
       }
-
       double
-      strain_rate_number(const double alpha, const double p_solid, const double k) const override
+      hardness(const SheetStrength &strength) const override
       {
-        const double f1 = 0.515 + 0.345 * alpha - 0.860 * alpha * alpha; // 0 at alpha = 1
-        if (!(f1 > 1e-14) || alpha >= 1.)
-          return std::numeric_limits<double>::infinity();
-        return (2. * alpha * k / p_solid - 1. / inverse_f2(alpha)) / f1;
-      }
-
-    private:
-      static double
-      inverse_f2(const double alpha)
-      {
-        return 2.571 - alpha - alpha * std::log1p(-alpha);
+        return 2. * 2.571 * strength.shear_strength;
       }
     };
   } // namespace
 
   TRIBODRAW_REGISTER(AsperityModel, WilsonSheu, "Wilson-Sheu",
-                     "Upper-bound fit for plateaus on a sheet that strains; load alone is its branch without strain.",
+                     "Upper-bound fit for plateaus that interact as they grow; its hardness at small contact is the "
+                     "slip-line value 5.14 k.",
                      "W.R.D. Wilson, S. Sheu: Real area of contact and boundary friction in metal forming. "
                      "Int. J. Mech. Sci. 30 (1988) 475-489")
 } // namespace tribodraw

@@ -3,6 +3,7 @@
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/boundary_friction/ploughing.h>
+#include <tribodraw/flattening/deformed_surface.h>
 #include <tribodraw/friction_table/builder.h>
 #include <tribodraw/friction_table/monotone_curve.h>
 
@@ -68,7 +69,8 @@ namespace tribodraw
     {
     public:
       Build(const PairDescription &p, const std::function<void(double)> &report_progress)
-          : pair(p), heights(p.sheet), film_heights(gap_map(p)), progress(report_progress)
+          : pair(p), heights(p.sheet), film_heights(sum_of_heights(p.sheet, p.tool)),
+            law(p.flattening->with_spacing_of(p.sheet)), progress(report_progress)
       {
       }
 
@@ -92,17 +94,9 @@ namespace tribodraw
       const PairDescription            &pair;
       const HeightDistribution          heights;      // of the sheet
       const HeightDistribution          film_heights; // of sheet + tool: the gap
+      const Flattening                  law;
       const std::function<void(double)> progress;
       FrictionTable                     table;
-
-      static HeightMap
-      gap_map(const PairDescription &p)
-      {
-        HeightMap sum = p.sheet;
-        for (std::size_t i = 0; i < p.tool.z.size(); ++i)
-          sum.z[i] += p.tool.z[i];
-        return sum;
-      }
 
       void
       report(const double done) const
@@ -114,12 +108,12 @@ namespace tribodraw
       const Flattening &
       flattening() const
       {
-        return *pair.flattening;
+        return law;
       }
-      double
+      SheetStrength
       strength(const double eps) const
       {
-        return flattening().shear_strength(*pair.hardening, eps);
+        return flattening().strength(*pair.hardening, eps);
       }
       Axis
       pressure_axis(const AxisScale scale) const
@@ -145,7 +139,7 @@ namespace tribodraw
         std::sort(eps.begin(), eps.end());
         eps.erase(std::unique(eps.begin(), eps.end(), [](double a, double b) { return b - a < 1e-12; }), eps.end());
         for (const double e : eps)
-          k.push_back(strength(e));
+          k.push_back(strength(e).shear_strength);
         table.shear_strength = Table<1>({ Axis{ eps, AxisScale::linear } }, k);
       }
 
@@ -217,9 +211,10 @@ namespace tribodraw
         std::vector<double> values;
         for (const double p : pair.axes.pressures)
           for (const double eps : pair.axes.strains)
-            for (const double alpha : table.curves.contact_fraction)
-              values.push_back(std::min(FrictionTable::rigid_strain_load,
-                                        p * flattening().strain_per_descent(alpha, p, strength(eps))));
+            for (const double s : table.curves.cut_height)
+              values.push_back(
+                  std::min(FrictionTable::rigid_strain_load,
+                           p * flattening().strain_per_descent(PlateauState(heights, s), p, strength(eps))));
         table.strain_load_per_descent = Table<3>(
             { pressure_axis(AxisScale::linear), strain_axis(), Axis{ table.curves.cut_height, AxisScale::linear } },
             values);
@@ -243,35 +238,32 @@ namespace tribodraw
       {
         const auto         &pressures = pair.axes.pressures, &strains = pair.axes.strains;
         std::vector<double> coefficient(pressures.size() * strains.size(), 0.);
-        std::vector<double> saturated(coefficient.size(), 0.);
+        std::vector<double> full_contact(coefficient.size(), 0.);
         if (pair.tool.size() > 0)
           {
-            const timing::Scope              scope("friction_table/ploughing");
-            const std::vector<std::uint32_t> order = pixels_by_height(pair.tool);
+            const timing::Scope scope("friction_table/ploughing");
+            const ToolSurface   tool(pair.tool, pair.boundary_friction.ploughing_directions);
             parallel::for_range(coefficient.size(), 1, [&](const std::size_t begin, const std::size_t end) {
               for (std::size_t point = begin; point < end; ++point)
                 {
-                  const double         p = pressures[point / strains.size()], eps = strains[point % strains.size()];
-                  const double         s = table.cut_height_monotone.values()[point], k = strength(eps);
-                  const PlateauContact contact(pair.sheet, pair.tool, order, s + sheet_mean() - 1e-9 * heights.sq());
-                  const double         tau     = pair.boundary_friction.layer_shear(p / heights.contact_fraction(s), k);
-                  const auto           balance = balance_ploughing(contact, p, flattening().hardness(k), tau,
-                                                                   pair.boundary_friction.ploughing_directions);
+                  const double        p = pressures[point / strains.size()], eps = strains[point % strains.size()];
+                  const double        s   = table.cut_height_monotone.values()[point];
+                  const SheetStrength now = strength(eps);
+                  const double        k   = now.shear_strength;
+                  // The distribution is about the mean of the map, and the pixel at s belongs to the plateau.
+                  const PlateauContact contact(pair.sheet, tool, s + heights.mean() - 1e-9 * heights.sq());
+                  const double         p0      = plateau_pressure(p, heights.contact_fraction(s));
+                  const double         tau     = pair.boundary_friction.layer_shear(p0, k);
+                  const auto           balance = balance_ploughing(contact, *pair.boundary_friction.ploughing, p,
+                                                                   { flattening().hardness(now), k, tau });
                   coefficient[point]           = std::max(0., balance.coefficient);
-                  saturated[point]             = balance.saturated;
+                  full_contact[point]          = balance.full_contact;
                 }
             });
           }
         table.ploughing_coefficient = Table<2>({ pressure_axis(AxisScale::logarithmic), strain_axis() }, coefficient);
-        table.provenance["ploughing_points_saturated"] = std::count(saturated.begin(), saturated.end(), 1.);
-      }
-
-      /// The distribution is about the mean of the map; maps have zero mean but for round-off. (The pixel at s itself
-      /// belongs to the plateau, hence the tiny amount subtracted by the caller.)
-      double
-      sheet_mean() const
-      {
-        return *std::max_element(pair.sheet.z.begin(), pair.sheet.z.end()) - heights.highest();
+        table.provenance["ploughing_points_in_full_contact"] = std::count(full_contact.begin(), full_contact.end(), 1.);
+        table.provenance["asperity_half_spacing_mm"]         = flattening().half_spacing();
       }
 
       void

@@ -2,6 +2,7 @@
 #define tribodraw_boundary_friction_ploughing_h
 
 #include <tribodraw/boundary_friction/contact_patches.h>
+#include <tribodraw/boundary_friction/ploughing_law.h>
 
 #include <cstddef>
 
@@ -32,22 +33,26 @@ namespace tribodraw
   /// What the indentation of a rough tool into the flattened sheet came to.
   struct PloughingBalance
   {
-    /// (drag - tau * load-bearing area of the patches) / load. The pure shear of the boundary layer is not in it: the
+    /// (drag - tau * touching area that was counted) / load. The pure shear of the boundary layer is not in it: the
     /// friction table adds it over the whole plateau, alpha min(tau_BL, k) + coefficient * p_solid.
     double      coefficient    = 0;
     double      support        = 0; ///< carried by the patches, per nominal area [MPa]
     double      patch_fraction = 0; ///< area of the contact patches per nominal area
-    double      patch_pressure = 0; ///< pressure on the leading sides [MPa]: the hardness unless saturated
+    double      patch_pressure = 0; ///< mean pressure on the leading sides [MPa]
+    double      back_pressure  = 0; ///< on the trailing sides [MPa]; 0 unless in full contact
     std::size_t n_patches      = 0;
-    bool        saturated = false; ///< all plateaus touch and still carry less at the hardness: the pressure is raised
+    bool        full_contact   = false; ///< plateaus touch everywhere, trailing sides carry as well
   };
 
-  /// Find the indentation of the tool at which the leading sides of its contact patches, at pressure @p hardness and
-  /// shear stress @p tau, carry @p p_solid per nominal area; average over @p n_directions sliding directions spread
-  /// over 180 degrees. Pixels enter the contact one at a time; two states that differ by one pixel or 0.2 % of them are
-  /// mixed so that support equals load.
-  PloughingBalance balance_ploughing(const PlateauContact &contact, double p_solid, double hardness, double tau,
-                                     unsigned int n_directions);
+  /// Find the indentation of the tool at which its contact patches carry @p p_solid per nominal area.
+  ///
+  /// As long as the leading sides can carry the load, they alone do: the groove behind a summit stays open. Pixels
+  /// enter the contact one at a time; two states that differ by one pixel or 0.2 % of them are mixed so that support
+  /// equals load. If the whole plateau touches and its leading sides cannot carry the load, the rest is a uniform back
+  /// pressure on all of the plateau, leading and trailing sides alike: plastic flow, and with it the drag, depends on
+  /// the difference of the pressures only (doc/theory/friction.md, Full contact).
+  PloughingBalance balance_ploughing(const PlateauContact &contact, const PloughingLaw &law, double p_solid,
+                                     const PloughingStrength &strength);
 } // namespace tribodraw
 
 #endif

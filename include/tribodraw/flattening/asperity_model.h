@@ -3,9 +3,39 @@
 
 namespace tribodraw
 {
+  class HardeningLaw;
+  class HeightDistribution;
   class Parameters;
 
-  /// How much load an asperity array carries and how fast bulk straining flattens it.
+  /// The flattened sheet as asperity models see it.
+  struct PlateauState
+  {
+    /// A state of which only the contact fraction is known: enough for models that do not ask for the heights.
+    PlateauState(double contact_fraction) : contact_fraction(contact_fraction) {}
+    PlateauState(const HeightDistribution &heights, double cut_height);
+
+    double                    contact_fraction;
+    double                    cut_height = 0;       ///< [mm]
+    const HeightDistribution *heights    = nullptr; ///< undeformed heights
+  };
+
+  /// The strength of the sheet that carries the asperities.
+  struct SheetStrength
+  {
+    /// A sheet that does not harden.
+    SheetStrength(double shear_strength) : shear_strength(shear_strength) {}
+    /// The sheet at equivalent plastic strain @p strain and strain rate @p rate [1/s].
+    SheetStrength(const HardeningLaw &hardening, double strain, double rate);
+
+    double              shear_strength;      ///< k = flow stress / sqrt(3) [MPa]
+    const HardeningLaw *hardening = nullptr; ///< how it hardens further; nullptr: not at all
+    double              strain = 0, rate = 0;
+
+    /// Flow stress [MPa] of an asperity strained by @p extra beyond the sheet.
+    double flow_stress(double extra = 0) const;
+  };
+
+  /// How much load an array of asperities carries without bulk straining of the sheet.
   class AsperityModel
   {
   public:
@@ -15,14 +45,16 @@ namespace tribodraw
     {
       return "asperity model";
     }
-    /// Solid pressure per nominal area [MPa] that holds contact fraction @p contact_fraction without bulk strain;
-    /// increasing, 0 at 0. @param shear_strength k = flow stress / sqrt(3) of the sheet [MPa].
-    virtual double normal_load(double contact_fraction, double shear_strength) const = 0;
-    /// Dimensionless strain rate E = (bulk strain rate) * (asperity half spacing) / (closing velocity) at which the
-    /// plateaus of fraction @p contact_fraction carry @p solid_pressure (> 0); increasing with the contact fraction.
-    /// Negative where the load alone still flattens: the sign is kept so that tables interpolate a smooth function
-    /// through zero; users take max(E, 0). Infinite if bulk strain does not flatten in this model.
-    virtual double strain_rate_number(double contact_fraction, double solid_pressure, double shear_strength) const = 0;
+    /// Solid pressure per nominal area [MPa] that holds the state; increasing with the contact fraction, 0 at 0.
+    virtual double normal_load(const PlateauState &state, const SheetStrength &strength) const = 0;
+    /// Mean pressure on isolated plateaus (contact fraction -> 0) [MPa].
+    virtual double hardness(const SheetStrength &strength) const = 0;
+    /// True if the load depends on the heights and not on the contact fraction alone.
+    virtual bool
+    needs_heights() const
+    {
+      return false;
+    }
   };
 } // namespace tribodraw
 

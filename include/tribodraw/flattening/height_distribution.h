@@ -3,6 +3,7 @@
 
 #include <tribodraw/surface/height_map.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace tribodraw
@@ -19,6 +20,14 @@ namespace tribodraw
     double highest() const; ///< [mm]
     double lowest() const;  ///< [mm]
     double sq() const;      ///< root mean square height [mm]
+    double mean() const;    ///< of the map as given, before it was subtracted [mm]
+    /// Height of the pixel that is the @p n-th from the top, n = 1 ... number of pixels [mm].
+    double nth_highest(std::size_t n) const;
+    std::size_t
+    size() const
+    {
+      return height.size();
+    }
 
     double contact_fraction(double cut_height) const;
     /// Mean gap h_avg = integral of (s - z) over z < s, per nominal area [mm].
@@ -31,7 +40,7 @@ namespace tribodraw
   private:
     std::vector<double> height;     // sorted, ascending
     std::vector<double> prefix_sum; // prefix_sum[k] = sum of the k lowest
-    double              root_mean_square = 0;
+    double              root_mean_square = 0, mean_height = 0;
   };
 } // namespace tribodraw
 

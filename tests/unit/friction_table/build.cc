@@ -80,12 +80,13 @@ TEST(FrictionTableBuild, RoughToolPloughs)
   const PairDescription pair  = test::sample_pair(128, true);
   const FrictionTable   table = build_friction_table(pair);
   EXPECT_NEAR(table.sq, std::hypot(1.6, 0.3) * um, 1e-12); // combined (paper, Eq. 2)
-  // The slopes of the tool have a root mean square of Sq/length = 0.3/12 = 0.025 along any line: ploughing is of that
-  // order (too large by up to a factor of 3 on plateaus of a few pixels, where the paraboloid is a poor picture).
+  // Leading sides at the hardness: the coefficient is their mean slope. That of a Gaussian surface with this root mean
+  // square slope along a line is sqrt(2/pi) of it, and in full contact one half of that; summits are no steeper.
+  const double rms = 0.3 / 12. * 1.414; // sqrt(2) Sq/length for the correlation exp(-(x/length)^2)
   for (const double c : table.ploughing_coefficient.values())
     {
-      EXPECT_GT(c, 1e-4);
-      EXPECT_LT(c, 3. * 0.025);
+      EXPECT_GT(c, 0.5 * 0.5 * 0.798 * rms);
+      EXPECT_LT(c, 1.5 * 0.798 * rms); // at small loads few summits of this small map touch: scatter
     }
   const double alpha = table.film(0.5 * um).contact_fraction;
   EXPECT_NEAR(table.solid_shear(0.5 * um, 20., 20. / alpha, 0.1),
@@ -155,7 +156,8 @@ TEST(FrictionTableBuild, RegimesOfThePaper)
   std::string text = test::bimodal_sheet(666);
   text.replace(text.find("0.636831"), 8, "0.673645");
   const HeightDistribution  heights(test::make_surface(text)), wider(test::make_surface(test::bimodal_sheet(666)));
-  const Flattening          flattening(test::make_model<AsperityModel>("Wilson-Sheu"), 25 * um, 0.1);
+  const Flattening          flattening(test::make_model<AsperityModel>("Wilson-Sheu"), 25 * um, 0.1,
+                                       test::make_model<BulkStrainLaw>("Westeneng"));
   const std::vector<double> strains{ 0, .05, .1, .2, .3 };
   for (const Row &row : rows)
     {

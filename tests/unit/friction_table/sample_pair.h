@@ -125,7 +125,8 @@ namespace tribodraw::test
     pair.sheet = make_surface(bimodal_sheet(pixels));
     if (rough_tool)
       pair.tool = make_surface(ground_tool(pixels));
-    pair.flattening        = Flattening(make_model<AsperityModel>("Wilson-Sheu"), 25e-3, 0.1);
+    pair.flattening        = Flattening(make_model<AsperityModel>("Wilson-Sheu"), 25e-3, 0.1,
+                                        make_model<BulkStrainLaw>("Westeneng"));
     pair.hardening         = std::make_shared<SaturatingHardening>();
     pair.boundary_friction = paper_boundary_friction();
     pair.flow_factors      = std::make_shared<ClosedFormFactors>();
