@@ -14,36 +14,6 @@ namespace tribodraw
   {
     using Heights = Eigen::Map<const Eigen::ArrayXd>;
 
-    /// Sum over all pairs of pixels @p lag apart, along x or y.
-    double
-    pair_sum(const HeightMap &map, double mean, std::size_t lag, bool along_x)
-    {
-      double     sum = 0;
-      const auto row
-          = [&](std::size_t ix, std::size_t iy, std::size_t n) { return Heights(map.z.data() + iy * map.nx + ix, n); };
-      const auto add = [&](const Heights &a, const Heights &b) { sum += ((a - mean) * (b - mean)).sum(); };
-      if (along_x)
-        for (std::size_t iy = 0; iy < map.ny; ++iy)
-          {
-            add(row(0, iy, map.nx - lag), row(lag, iy, map.nx - lag));
-            if (map.periodic)
-              add(row(map.nx - lag, iy, lag), row(0, iy, lag));
-          }
-      else
-        for (std::size_t iy = 0; iy < map.ny; ++iy)
-          if (iy + lag < map.ny || map.periodic)
-            add(row(0, iy, map.nx), row(0, (iy + lag) % map.ny, map.nx));
-      return sum;
-    }
-
-    double
-    autocorrelation(const HeightMap &map, double mean, double variance, std::size_t lag, bool along_x)
-    {
-      const std::size_t n = along_x ? map.nx : map.ny, other = along_x ? map.ny : map.nx;
-      const double      pairs = static_cast<double>(map.periodic ? n : n - lag) * static_cast<double>(other);
-      return pair_sum(map, mean, lag, along_x) / (pairs * variance);
-    }
-
     double
     mean_of(const HeightMap &map)
     {
@@ -56,34 +26,6 @@ namespace tribodraw
       return (Heights(map.z.data(), map.z.size()) - mean).square().mean();
     }
 
-    double
-    autocorrelation(const HeightMap &map, std::size_t lag, bool along_x)
-    {
-      if (lag >= (along_x ? map.nx : map.ny))
-        throw InputError(describe_error("the lag exceeds the map.", map.description, std::to_string(lag) + " pixels"));
-      const double mean = mean_of(map);
-      return autocorrelation(map, mean, variance_of(map, mean), lag, along_x);
-    }
-
-    std::optional<double>
-    decay_length(const HeightMap &map, double mean, double variance, bool along_x)
-    {
-      constexpr double  threshold = 0.2;
-      const std::size_t n         = along_x ? map.nx : map.ny;
-      double            last      = 1.;
-      for (std::size_t lag = 1; lag <= n / 2 && lag < n; ++lag)
-        {
-          const double value = autocorrelation(map, mean, variance, lag, along_x);
-          if (value <= threshold)
-            {
-              const double part = (last - threshold) / (last - value);
-              return (static_cast<double>(lag - 1) + part) * (along_x ? map.dx : map.dy);
-            }
-          last = value;
-        }
-      return {};
-    }
-
     void
     check_not_empty(const HeightMap &map)
     {
@@ -91,18 +33,6 @@ namespace tribodraw
         throw InputError(describe_error("the surface has no heights.", map.description));
     }
   } // namespace
-
-  double
-  autocorrelation_x(const HeightMap &map, std::size_t lag)
-  {
-    return autocorrelation(map, lag, true);
-  }
-
-  double
-  autocorrelation_y(const HeightMap &map, std::size_t lag)
-  {
-    return autocorrelation(map, lag, false);
-  }
 
   Roughness
   roughness(const HeightMap &map)
@@ -120,32 +50,7 @@ namespace tribodraw
     r.sp  = z.maxCoeff();
     r.sv  = -z.minCoeff();
     r.sz  = r.sp + r.sv;
-
-    r.autocorrelation_length_x = decay_length(map, mean, variance, true);
-    r.autocorrelation_length_y = decay_length(map, mean, variance, false);
     return r;
-  }
-
-  std::vector<RoughnessRow>
-  roughness_rows(const HeightMap &map, const Roughness &r)
-  {
-    const double              um = units::factor("um");
-    std::vector<RoughnessRow> rows{ { "pixels_x", static_cast<double>(map.nx), "1" },
-                                    { "pixels_y", static_cast<double>(map.ny), "1" },
-                                    { "pixel_size_x", map.dx / um, "um" },
-                                    { "pixel_size_y", map.dy / um, "um" },
-                                    { "Sa", r.sa / um, "um" },
-                                    { "Sq", r.sq / um, "um" },
-                                    { "Ssk", r.ssk, "1" },
-                                    { "Sku", r.sku, "1" },
-                                    { "Sp", r.sp / um, "um" },
-                                    { "Sv", r.sv / um, "um" },
-                                    { "Sz", r.sz / um, "um" } };
-    if (r.autocorrelation_length_x)
-      rows.push_back({ "autocorrelation_length_x", *r.autocorrelation_length_x / um, "um" });
-    if (r.autocorrelation_length_y)
-      rows.push_back({ "autocorrelation_length_y", *r.autocorrelation_length_y / um, "um" });
-    return rows;
   }
 
   HeightHistogram

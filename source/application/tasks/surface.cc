@@ -6,10 +6,12 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
+#include <tribodraw/surface/evaluation.h>
 #include <tribodraw/surface/roughness.h>
 #include <tribodraw/surface/surface.h>
 #include <tribodraw/surface/surface_writer.h>
 
+#include <cstdio>
 #include <functional>
 
 namespace tribodraw
@@ -22,8 +24,11 @@ namespace tribodraw
     public:
       explicit SurfaceTask(Parameters &parameters)
       {
-        const auto scope = parameters.section("Sheet surface");
-        make             = read_surface(parameters);
+        {
+          const auto scope = parameters.section("Sheet surface");
+          make             = read_surface(parameters);
+          settings         = read_evaluation(parameters);
+        }
       }
 
       std::string
@@ -39,25 +44,57 @@ namespace tribodraw
         if (map.size() == 0)
           throw InputError(
               describe_error("An ideally smooth surface has no roughness to measure.", "Sheet surface/Model"));
-        const Roughness values = roughness(map);
         if (parallel::rank() != 0)
           return;
         log::info("Surface: " + map.description);
-        log::info("Sa " + units::format(values.sa, "um") + ", Sq " + units::format(values.sq, "um") + ", Ssk "
-                  + units::number(values.ssk) + ", Sku " + units::number(values.sku));
+        const Evaluation evaluation = [&] {
+          const timing::Scope scope("surface/evaluate");
+          return evaluate_surface(map, settings);
+        }();
+        report(evaluation);
         const timing::Scope scope("surface/write");
-        write_parameters(map, values, context.file("surface.csv"));
+        write_parameters(evaluation, context.file("surface.csv"));
         write_distribution(map, context);
+        write_voids(evaluation.voids, context.file("closed_voids.csv"));
         write_gsf(map, context.file("surface.gsf"));
       }
 
     private:
       static void
-      write_parameters(const HeightMap &map, const Roughness &values, const std::filesystem::path &file)
+      report(const Evaluation &evaluation)
+      {
+        std::string line;
+        for (const char *name : { "Sa", "Sq", "Ssk", "Sku", "Sal", "Str", "Spk", "Sk", "Svk", "Vcl", "Ra", "RPc" })
+          for (const ParameterRow &row : evaluation.rows)
+            if (row.parameter == name)
+              {
+                char value[32];
+                std::snprintf(value, sizeof value, "%.4g", row.value);
+                line += (line.empty() ? "" : ", ") + row.parameter + " " + value
+                        + (row.unit == "1" ? "" : " " + row.unit);
+              }
+        log::info(line);
+        for (const std::string &note : evaluation.notes)
+          log::info("Note: " + note + ".");
+      }
+
+      static void
+      write_parameters(const Evaluation &evaluation, const std::filesystem::path &file)
       {
         CsvTable table({ "parameter", "value", "unit" });
-        for (const RoughnessRow &row : roughness_rows(map, values))
+        for (const ParameterRow &row : evaluation.rows)
           table.add_row({ row.parameter, row.value, row.unit });
+        table.save(file);
+      }
+
+      static void
+      write_voids(const std::vector<VoidState> &states, const std::filesystem::path &file)
+      {
+        const double um = units::factor("um");
+        CsvTable     table({ "contact_fraction", "height_um", "void_volume_um", "closed_void_volume_um",
+                             "closed_void_area_fraction" });
+        for (const VoidState &s : states)
+          table.add_row({ s.contact_fraction, s.height / um, s.volume / um, s.closed_volume / um, s.closed_area });
         table.save(file);
       }
 
@@ -78,10 +115,11 @@ namespace tribodraw
       }
 
       std::function<HeightMap()> make;
+      EvaluationSettings         settings;
     };
   } // namespace
 
   TRIBODRAW_REGISTER(
       Task, SurfaceTask, "surface",
-      "Read or generate a height map, level it, and give its roughness, height distribution and picture.", "")
+      "Read or generate a height map, process it, and give its parameters, height distribution and pictures.", "")
 } // namespace tribodraw

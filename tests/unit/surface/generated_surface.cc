@@ -2,6 +2,7 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/parameters.h>
+#include <tribodraw/surface/autocorrelation.h>
 #include <tribodraw/surface/random_field.h>
 #include <tribodraw/surface/roughness.h>
 #include <tribodraw/surface/surface.h>
@@ -182,16 +183,18 @@ TEST(GeneratedSurface, GaussianMapHasThePrescribedAutocorrelation)
   // 666 x 666 pixels of 3 um, l = 24 um (8 pixels): area A = (1998 um)^2, A/(pi l^2) = 2206. Bartlett's formula for a
   // Gaussian field with autocorrelation r: var C(t) = 1/A int [r^2 + r(x+t) r(x-t) + 2 r(t)^2 r^2 - 4 r(t) r r(x-t)]
   // dx, which at t = l is (1 + e^-1 + 2 e^-1 - 4 e^-0.75)/2206: standard deviation 0.0099. Four of them are allowed.
-  const auto   map   = make(gaussian(666, 42, "24 um"));
-  const double bound = 4 * 0.0099;
-  EXPECT_NEAR(autocorrelation_x(map, 8), std::exp(-0.5), bound);
-  EXPECT_NEAR(autocorrelation_y(map, 8), std::exp(-0.5), bound);
+  const auto            map   = make(gaussian(666, 42, "24 um"));
+  const double          bound = 4 * 0.0099;
+  const Autocorrelation acf(map);
+  EXPECT_NEAR(acf(8, 0), std::exp(-0.5), bound);
+  EXPECT_NEAR(acf(0, 8), std::exp(-0.5), bound);
   // C = 0.2 at l sqrt(2 ln 5) = 1.794 l = 43.06 um. The slope there is -0.2 * 1.794 / l and the standard deviation of C
   // at most sqrt(1/2206) = 0.021, so that of the length at most 1.4 um.
   const auto r = roughness(map);
-  ASSERT_TRUE(r.autocorrelation_length_x && r.autocorrelation_length_y);
-  EXPECT_NEAR(*r.autocorrelation_length_x, 43.06e-3, 4 * 1.4e-3);
-  EXPECT_NEAR(*r.autocorrelation_length_y, 43.06e-3, 4 * 1.4e-3);
+  const auto s = spatial_parameters(map);
+  ASSERT_TRUE(s.length_x && s.length_y);
+  EXPECT_NEAR(*s.length_x, 43.06e-3, 4 * 1.4e-3);
+  EXPECT_NEAR(*s.length_y, 43.06e-3, 4 * 1.4e-3);
   // var Ssk = 6 int r^3 / A = 4/2206: 0.0426; var Sku = 24 int r^4 / A = 12/2206: 0.0738.
   EXPECT_NEAR(r.ssk, 0., 4 * 0.0426);
   EXPECT_NEAR(r.sku, 3., 4 * 0.0738);
@@ -201,9 +204,10 @@ TEST(GeneratedSurface, TwoCorrelationLengthsGiveALay)
 {
   // Ground tool: 60 um along the lay, 6 um across: A/(pi lx ly) = 3530 on 666 pixels of 3 um, bound as above: 4 *
   // 0.0078 (Bartlett scales with the product of the lengths).
-  const auto map = make(gaussian(666, 5, "60 um, 6 um"));
-  EXPECT_NEAR(autocorrelation_x(map, 20), std::exp(-0.5), 4 * 0.0078);
-  EXPECT_NEAR(autocorrelation_y(map, 2), std::exp(-0.5), 4 * 0.0078);
+  const auto            map = make(gaussian(666, 5, "60 um, 6 um"));
+  const Autocorrelation acf(map);
+  EXPECT_NEAR(acf(20, 0), std::exp(-0.5), 4 * 0.0078);
+  EXPECT_NEAR(acf(0, 2), std::exp(-0.5), 4 * 0.0078);
 }
 
 TEST(GeneratedSurface, GaussianSaFollowsFromSq)

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
-#include <map>
 
 using namespace tribodraw;
 
@@ -26,18 +25,6 @@ namespace
       for (std::size_t ix = 0; ix < nx; ++ix)
         map.z.push_back(mean + amplitude * std::sin(2 * pi * n_waves * (ix + 0.5) / nx));
     return map;
-  }
-
-  HeightMap
-  transposed(const HeightMap &map)
-  {
-    HeightMap result = map;
-    std::swap(result.nx, result.ny);
-    std::swap(result.dx, result.dy);
-    for (std::size_t iy = 0; iy < map.ny; ++iy)
-      for (std::size_t ix = 0; ix < map.nx; ++ix)
-        result(iy, ix) = map(ix, iy);
-    return result;
   }
 } // namespace
 
@@ -83,45 +70,6 @@ TEST(Roughness, TwoLevelsGiveTheMomentsOfABernoulliVariable)
   EXPECT_EQ(r.sv, 1.);
 }
 
-TEST(Roughness, AutocorrelationOfTheSineIsItsCosine)
-{
-  // Periodic sine: C(x) = cos(2 pi x / wavelength), exact for sums over whole periods. It falls to 0.2 at
-  // wavelength * acos(0.2) / (2 pi); linear interpolation between pixels is off by at most (2 pi/N)^2/8 * N/(2 pi)
-  // pixels.
-  const auto map = sine(200, 8, 2, 1e-3);
-  EXPECT_NEAR(autocorrelation_x(map, 0), 1., 1e-13);
-  EXPECT_NEAR(autocorrelation_x(map, 13), std::cos(2 * pi * 13 / 100), 1e-12);
-  EXPECT_NEAR(autocorrelation_y(map, 3), 1., 1e-13);
-  const auto   r        = roughness(map);
-  const double expected = 100 * map.dx * std::acos(0.2) / (2 * pi);
-  ASSERT_TRUE(r.autocorrelation_length_x);
-  EXPECT_NEAR(*r.autocorrelation_length_x, expected, 2 * pi / 100 / 8 * map.dx);
-  EXPECT_FALSE(r.autocorrelation_length_y); // constant along y
-}
-
-TEST(Roughness, TransposedMapSwapsTheAxes)
-{
-  const auto map = sine(100, 12, 2, 1e-3);
-  const auto a = roughness(map), b = roughness(transposed(map));
-  EXPECT_NEAR(a.sq, b.sq, 1e-15);
-  EXPECT_NEAR(*a.autocorrelation_length_x, *b.autocorrelation_length_y, 1e-12);
-  EXPECT_FALSE(b.autocorrelation_length_x);
-}
-
-TEST(Roughness, AutocorrelationOfAnOpenMapUsesOverlappingPairsOnly)
-{
-  // Heights 1, -1, 1, -1, ... along x: all 7 pairs at lag 1 have product -1, all 6 at lag 2 have +1.
-  HeightMap map;
-  map.nx = 8;
-  map.ny = 3;
-  map.dx = map.dy = 1e-3;
-  for (int i = 0; i < 24; ++i)
-    map.z.push_back(i % 2 ? -1. : 1.);
-  EXPECT_NEAR(autocorrelation_x(map, 1), -1., 1e-14);
-  EXPECT_NEAR(autocorrelation_x(map, 2), 1., 1e-14);
-  EXPECT_NEAR(autocorrelation_y(map, 2), 1., 1e-14);
-}
-
 TEST(Roughness, HistogramOfARampIsUniformAndHasUnitArea)
 {
   HeightMap map;
@@ -152,19 +100,6 @@ TEST(Roughness, AbbottCurveOfASineIsItsArcCosine)
   for (unsigned i = 0; i < 21; ++i)
     EXPECT_NEAR(curve.height[i], 2. * std::cos(pi * curve.material_ratio[i]), 2. * pi / 1000) << i;
   EXPECT_EQ(curve.material_ratio.back(), 1.);
-}
-
-TEST(Roughness, RowsCarryUnits)
-{
-  const auto                          map = sine(400, 10, 2, 2e-3);
-  std::map<std::string, RoughnessRow> rows;
-  for (const auto &row : roughness_rows(map, roughness(map)))
-    rows.emplace(row.parameter, row);
-  EXPECT_NEAR(rows.at("Sq").value, std::sqrt(2.), 1e-10); // 2e-3 mm / sqrt(2) in um
-  EXPECT_EQ(rows.at("Sq").unit, "um");
-  EXPECT_EQ(rows.at("Sku").unit, "1");
-  EXPECT_EQ(rows.at("pixels_x").value, 400);
-  EXPECT_EQ(rows.count("autocorrelation_length_y"), 0u); // constant along y
 }
 
 TEST(Roughness, EmptyAndFlatMapsAreRejected)
