@@ -127,10 +127,11 @@ namespace tribodraw
       const Pack n_tr   = mean_modulus * s.d.m * trial.m + shear_modulus * (s.d.a * trial.a + s.d.b * trial.b);
       const Pack slope  = s.f.strain_slope + s.f.rate_slope * idt;
       const Pack next   = pack::max(s.flow + (n_tr - s.flow * nDn - s.f.value) / (nDn + slope), 0.2 * s.flow);
+      const Pack before = s.flow;
       s.flow            = pack::select(s.active, next, s.flow);
-      const Pack before = s.f.value;
-      hardening.flow_stress_pack(eps_p + s.flow, s.flow * idt, s.f);
-      scale(pack::select(s.active, s.f.value / before, Pack(1.)), s.stress, s.d);
+      const Pack value  = pack::max(s.f.value + slope * (s.flow - before), 0.5 * s.f.value);
+      scale(pack::select(s.active, value / s.f.value, Pack(1.)), s.stress, s.d);
+      s.f.value = value;
     }
 
     // Newton on stress and flow. Because the locus is homogeneous, scaling the stress to the yield surface costs
@@ -172,10 +173,17 @@ namespace tribodraw
           const Pack     full = pack::select(cut, -0.8 * s.flow / pack::select(cut, d_flow, Pack(-1.)), Pack(1.));
           const Pack     step = pack::select(s.active, full, Pack(0.));
           const Pack     dm = -Xr.m - d_flow * Xn.m, da = -Xr.a - d_flow * Xn.a, db = -Xr.b - d_flow * Xn.b;
-          s.stress.m = s.stress.m + step * dm;
-          s.stress.a = s.stress.a + step * da;
-          s.stress.b = s.stress.b + step * db;
-          s.flow     = s.flow + step * d_flow;
+          // The error left by so small a full step is its square, and the derivatives are exact to its size.
+          const Pack length = square(dm) + square(da) + square(db)
+                              + 1e-2 * goal * square(d_flow / pack::select(s.active, s.flow, Pack(1.)));
+          const PackMask last = s.active && !cut && length < square(5e-8) * goal;
+          s.stress.m          = s.stress.m + step * dm;
+          s.stress.a          = s.stress.a + step * da;
+          s.stress.b          = s.stress.b + step * db;
+          s.flow              = s.flow + step * d_flow;
+          s.active            = s.active && !last;
+          if (!pack::any(s.active))
+            return;
         }
       s.failed = s.failed || s.active;
     }
@@ -219,12 +227,11 @@ namespace tribodraw
       result.plastic_work = Pack(0.);
       if (pack::any(s.plastic))
         {
+          const Pack initial = s.f.value;
           solver.iterate(s);
-          // Trapezoidal rule: the end stress alone would overstate the work of large increments by half their
-          // hardening.
-          FlowStressPack before;
-          hardening.flow_stress_pack(eps_p, s.flow * (1 / options.time_increment), before);
-          result.plastic_work = pack::select(s.plastic, 0.5 * (before.value + s.f.value) * s.flow, Pack(0.));
+          // The end stress alone would overstate the work of large increments by half their hardening.
+          const Pack mean     = pack::max(initial, s.f.value - 0.5 * s.f.strain_slope * s.flow);
+          result.plastic_work = pack::select(s.plastic, mean * s.flow, Pack(0.));
         }
       if (options.tangent)
         solver.tangent(s, result.tangent);

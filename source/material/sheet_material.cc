@@ -2,6 +2,7 @@
 #include <tribodraw/material/return_mapping.h>
 #include <tribodraw/material/sheet_material.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tribodraw
@@ -96,9 +97,10 @@ namespace tribodraw
     const double rate_part = loading_tangent ? 0. : flow.flow_stress.rate_slope / time_increment;
     result.tangent
         = plastic_tangent(symmetric_inverse(flow.compliance), flow.normal, flow.flow_stress.strain_slope + rate_part);
-    // Trapezoidal rule: the end stress alone would overstate the work of large increments by half their hardening.
-    const double start_stress    = hardening_law->flow_stress(old_state.eps_p, flow.flow / time_increment).value;
-    result.plastic_work          = 0.5 * (start_stress + flow.flow_stress.value) * flow.flow;
+    // The end stress alone would overstate the work of large increments by half their hardening.
+    const double mean_stress
+        = std::max(limit.value, flow.flow_stress.value - 0.5 * flow.flow_stress.strain_slope * flow.flow);
+    result.plastic_work          = mean_stress * flow.flow;
     result.elastic_energy        = 0.5 * flow.stress.dot(D_inverse * flow.stress);
     const Vector3 plastic_strain = old_state.plastic_strain + flow.flow * flow.normal;
     new_state.eps_p              = old_state.eps_p + flow.flow;
