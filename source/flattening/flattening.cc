@@ -39,15 +39,26 @@ namespace tribodraw
     std::shared_ptr<const BulkStrainLaw> bulk_strain = parameters.model<BulkStrainLaw>(
         "Bulk strain", "How bulk plastic strain of the sheet flattens loaded asperities further.",
         Default{ "Westeneng", "straining sheets are flattened several times more than sheets under load alone" });
-    const double l    = read_half_spacing(parameters);
-    const double rate = parameters.quantity("Strain rate", "1/s", Range::non_negative().usual(0, 1e4),
-                                            "Bulk strain rate at which the flow stress of the asperities is taken.");
-    return Flattening(std::move(model), l, rate, std::move(bulk_strain));
+    const double l       = read_half_spacing(parameters);
+    const double rate    = parameters.quantity("Strain rate", "1/s", Range::non_negative().usual(0, 1e4),
+                                               "Bulk strain rate at which the flow stress of the asperities is taken.");
+    double       pruning = 0.05;
+    if (!(l > 0) || parameters.documentation_mode())
+      pruning = parameters.quantity(
+          "Asperity pruning", "", Range::between(0, 1),
+          "Only with `from map`: a plateau counts as an asperity of its own where it stands at least this fraction of "
+          "the map's height range above the saddle to a higher one.",
+          Default{ "0.05", "Wolf pruning of hills in ISO 25178-2" });
+    else
+      parameters.mark_unselected("Asperity pruning");
+    return Flattening(std::move(model), l, rate, std::move(bulk_strain), pruning);
   }
 
   Flattening::Flattening(std::shared_ptr<const AsperityModel> asperity_model, const double half_spacing,
-                         const double strain_rate, std::shared_ptr<const BulkStrainLaw> strain_law)
-      : model(std::move(asperity_model)), bulk_strain(std::move(strain_law)), l(half_spacing), rate(strain_rate)
+                         const double strain_rate, std::shared_ptr<const BulkStrainLaw> strain_law,
+                         const double wolf_pruning)
+      : model(std::move(asperity_model)), bulk_strain(std::move(strain_law)), l(half_spacing), rate(strain_rate),
+        pruning(wolf_pruning)
   {
   }
 
@@ -60,7 +71,9 @@ namespace tribodraw
   Flattening
   Flattening::with_spacing_of(const HeightMap &sheet) const
   {
-    return needs_spacing() ? Flattening(model, count_asperities(sheet).half_spacing, rate, bulk_strain) : *this;
+    if (!needs_spacing())
+      return *this;
+    return Flattening(model, count_asperities(sheet, pruning).half_spacing, rate, bulk_strain, pruning);
   }
 
   double

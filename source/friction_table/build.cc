@@ -1,4 +1,5 @@
 #include <tribodraw/base/errors.h>
+#include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
@@ -72,6 +73,8 @@ namespace tribodraw
           : pair(p), heights(p.sheet), film_heights(sum_of_heights(p.sheet, p.tool)),
             law(p.flattening->with_spacing_of(p.sheet)), progress(report_progress)
       {
+        if (p.flattening->needs_spacing())
+          log::info("Asperity half spacing counted on the sheet: " + units::format(law.half_spacing(), "um") + ".");
       }
 
       FrictionTable

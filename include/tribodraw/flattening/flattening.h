@@ -27,9 +27,9 @@ namespace tribodraw
     /// Reads the current subsection (`Flattening`): `Model`, `Bulk strain`, `Asperity half spacing`, `Strain rate`.
     static Flattening read(Parameters &parameters);
     /// @param half_spacing l [mm], 0: not known before with_spacing_of(); @param strain_rate at which the flow stress
-    /// is taken [1/s]; @param bulk_strain nullptr: strain does not flatten.
+    /// is taken [1/s]; @param bulk_strain nullptr: strain does not flatten; @param pruning see count_asperities().
     Flattening(std::shared_ptr<const AsperityModel> model, double half_spacing, double strain_rate,
-               std::shared_ptr<const BulkStrainLaw> bulk_strain = nullptr);
+               std::shared_ptr<const BulkStrainLaw> bulk_strain = nullptr, double pruning = 0.05);
 
     /// True if the asperity spacing is still to be taken from the sheet (`from map`).
     bool needs_spacing() const;
@@ -71,7 +71,7 @@ namespace tribodraw
   private:
     std::shared_ptr<const AsperityModel> model;
     std::shared_ptr<const BulkStrainLaw> bulk_strain;
-    double                               l, rate;
+    double                               l, rate, pruning;
 
     std::vector<double> strain_under_load(const HeightDistribution &heights, const HardeningLaw &hardening, double s,
                                           double p_solid, double eps, const std::vector<double> &strains) const;

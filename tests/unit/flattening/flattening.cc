@@ -145,7 +145,7 @@ TEST(Flattening, SampleOfNormalLoadAndStrain)
   const HeightDistribution heights(gaussian_map(700, 1.6 * um));
   const ConstantHardening  hardening(200.);
   const Flattening         flattening = with_strain(make_model("Wilson-Sheu"));
-  const auto               contact = [&](const double p) {
+  const auto               contact    = [&](const double p) {
     std::vector<double> alpha;
     for (const double s : flattening.monotone_cut_heights(heights, hardening, p, { 0., .05, .1, .2 }))
       alpha.push_back(heights.contact_fraction(s));
@@ -204,7 +204,7 @@ TEST(Flattening, QuadratureAgreesWithTheDifferentialEquation)
   const double             sq = 1.6 * um, l = 25 * um, p = 10.;
   const HeightDistribution heights(gaussian_map(1000, sq));
   const PowerHardening     hardening;
-  const auto               model = make_model("Wilson-Sheu");
+  const auto               model      = make_model("Wilson-Sheu");
   const Flattening         flattening = with_strain(model);
   std::vector<double>      strains{ 0.01 };
   for (int i = 1; i <= 10; ++i)
@@ -275,6 +275,43 @@ TEST(Flattening, ReadsItsSection)
   parameters.finish();
   EXPECT_NEAR(flattening.half_spacing(), 0.025, 1e-15);
   EXPECT_NEAR(flattening.strain_rate(), 0.1, 1e-15);
+}
+
+TEST(Flattening, TakesTheSpacingFromTheMap)
+{
+  Parameters       parameters = Parameters::from_text("set Model = Wilson-Sheu\n"
+                                                            "set Asperity half spacing = from map\n"
+                                                            "set Strain rate = 0.1 1/s\n");
+  const Flattening flattening = Flattening::read(parameters);
+  parameters.finish();
+  EXPECT_TRUE(flattening.needs_spacing());
+  EXPECT_THROW(flattening.half_spacing(), std::logic_error);
+  // Smooth bumps of 10 x 10 pixels of 3 um.
+  HeightMap map;
+  map.nx = 60;
+  map.ny = 40;
+  map.dx = map.dy = 3 * um;
+  map.periodic    = true;
+  for (std::size_t iy = 0; iy < 40; ++iy)
+    for (std::size_t ix = 0; ix < 60; ++ix)
+      map.z.push_back(um * std::cos(0.62831853 * ix) * std::cos(0.62831853 * iy) + 1e-9 * ix);
+  const Flattening counted = flattening.with_spacing_of(map);
+  EXPECT_FALSE(counted.needs_spacing());
+  // cos cos has two summits in each 10 x 10 pixels, (0,0) and (5,5): density 2/(30 um)^2
+  EXPECT_NEAR(counted.half_spacing(), 0.5 * 30 * um / std::sqrt(2.), 1e-12);
+  EXPECT_EQ(Flattening(nullptr, 25 * um, 0.).with_spacing_of(map).half_spacing(), 25 * um);
+}
+
+// Reported: what is wrong, by name, all at once.
+TEST(Flattening, NamesImpossibleSpacings)
+{
+  for (const char *text : { "0 um", "-25 um", "25", "25 MPa", "from nowhere" })
+    {
+      Parameters parameters = Parameters::from_text(std::string("set Model = Wilson-Sheu\nset Strain rate = 0.1 1/s\n")
+                                                    + "set Asperity half spacing = " + text + "\n");
+      Flattening::read(parameters);
+      EXPECT_THROW(parameters.finish(), InputError) << text;
+    }
 }
 
 TEST(Flattening, NamesWrongEntries)
