@@ -125,6 +125,8 @@ namespace tribodraw
       for (const int stream : { 1, 2, 3 })
         icntl(mumps, stream) = 0;
       icntl(mumps, 4)  = 0;
+      icntl(mumps, 7)  = 4;  // PORD: on the tangent of a sheet, 2 to 3 times fewer operations than the automatic choice
+                             // for symmetric matrices (AMF), and within 3 per cent of METIS
       icntl(mumps, 6)  = 0;  // no permutation by values: the analysis serves all matrices of the pattern
       icntl(mumps, 10) = 0;  // no iterative refinement: the outer Newton iteration does that
       icntl(mumps, 13) = 1;  // no ScaLAPACK at the root: needed for the inertia and for null pivots

@@ -2,9 +2,12 @@
 #include <tribodraw/shell/blank_mesh.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <sstream>
 #include <string>
+#include <unordered_map>
 
 namespace tribodraw
 {
@@ -42,6 +45,14 @@ namespace tribodraw
                                         std::to_string(n_u) + " x " + std::to_string(n_v), "1 or more"));
     }
 
+    std::string
+    side_name(const BlankMesh &mesh, const unsigned from, const unsigned to)
+    {
+      std::ostringstream text;
+      text << "side from (" << mesh.nodes[from].transpose() << ") to (" << mesh.nodes[to].transpose() << ") mm";
+      return text.str();
+    }
+
     template <class Better>
     double
     extreme_edge(const BlankMesh &mesh, double best, const Better &better)
@@ -56,6 +67,33 @@ namespace tribodraw
       return best;
     }
   } // namespace
+
+  std::vector<std::array<int, 3>>
+  BlankMesh::opposite_nodes() const
+  {
+    // A side in its direction, with the third node of its triangle; the neighbour runs through it the other way.
+    std::unordered_map<std::uint64_t, unsigned> third;
+    third.reserve(3 * triangles.size());
+    const auto key = [](const unsigned from, const unsigned to) { return (std::uint64_t(from) << 32) | to; };
+    for (std::size_t e = 0; e < triangles.size(); ++e)
+      for (unsigned k = 0; k < 3; ++k)
+        {
+          const unsigned from = triangles[e][k], to = triangles[e][(k + 1) % 3];
+          if (!third.emplace(key(from, to), triangles[e][(k + 2) % 3]).second)
+            throw InputError(describe_error("A side belongs to more than two triangles, or neighbours turn in "
+                                            "opposite directions.",
+                                            "blank mesh", side_name(*this, from, to), "a surface with one upper side"));
+        }
+    std::vector<std::array<int, 3>> opposite(triangles.size(), { -1, -1, -1 });
+    for (std::size_t e = 0; e < triangles.size(); ++e)
+      for (unsigned k = 0; k < 3; ++k)
+        {
+          const auto found = third.find(key(triangles[e][(k + 1) % 3], triangles[e][k]));
+          if (found != third.end())
+            opposite[e][k] = static_cast<int>(found->second);
+        }
+    return opposite;
+  }
 
   double
   BlankMesh::smallest_edge() const

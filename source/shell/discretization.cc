@@ -4,7 +4,6 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <stdexcept>
@@ -46,8 +45,14 @@ namespace tribodraw
     }
   };
 
-  Discretization::Discretization(const BlankMesh &mesh) : finite_elements(std::make_unique<FiniteElements>())
+  Discretization::Discretization(const BlankMesh &mesh, const bool smoothed)
+      : finite_elements(std::make_unique<FiniteElements>())
   {
+    using namespace shell_element;
+    if (smoothed)
+      opposite = mesh.opposite_nodes();
+    else
+      opposite.assign(mesh.triangles.size(), { -1, -1, -1 });
     FiniteElements &f = *finite_elements;
     create_triangulation(mesh, f.triangulation);
     f.dof_handler.distribute_dofs(f.fe);
@@ -68,14 +73,29 @@ namespace tribodraw
             seen[node] = true;
             for (unsigned c = 0; c < n_components; ++c)
               {
-                node_dofs[node][c]                  = static_cast<unsigned>(cell->vertex_dof_index(v, c));
-                dofs[element][n_components * v + c] = static_cast<int>(node_dofs[node][c]);
+                node_dofs[node][c] = static_cast<unsigned>(cell->vertex_dof_index(v, c));
+                if (node_dofs[node][c] != node_dofs[node][0] + c)
+                  throw std::logic_error("The unknowns of a node do not follow each other.");
               }
           }
       }
     for (const bool s : seen)
       if (!s)
         throw std::logic_error("The blank mesh has a node without an element.");
+
+    for (std::size_t element = 0; element < dofs.size(); ++element)
+      for (unsigned v = 0; v < n_nodes; ++v)
+        {
+          const auto &of_node = node_dofs[mesh.triangles[element][v]];
+          for (unsigned c = 0; c < n_displacement; ++c)
+            {
+              const int node                        = opposite[element][v];
+              dofs[element][displacement_dof(v, c)] = static_cast<int>(of_node[c]);
+              dofs[element][opposite_dof(v, c)]     = node < 0 ? -1 : static_cast<int>(node_dofs[node][c]);
+            }
+          for (unsigned t = 0; t < 2; ++t)
+            dofs[element][director_dof(v, t)] = static_cast<int>(of_node[n_displacement + t]);
+        }
   }
 
   Discretization::~Discretization() = default;
@@ -89,16 +109,18 @@ namespace tribodraw
   std::vector<std::vector<int>>
   Discretization::columns(const unsigned n_extra) const
   {
-    // Not DoFTools::make_sparsity_pattern, which visits only the cells of this rank.
-    const unsigned                               n = n_dofs();
-    dealii::DynamicSparsityPattern               pattern(n + n_extra);
-    const dealii::AffineConstraints<double>      no_constraints;
-    std::vector<dealii::types::global_dof_index> cell_dofs(shell_element::n_dofs);
-    for (const auto &cell : finite_elements->dof_handler.active_cell_iterators())
-      {
-        cell->get_dof_indices(cell_dofs);
-        no_constraints.add_entries_local_to_global(cell_dofs, pattern);
-      }
+    // Not DoFTools::make_sparsity_pattern, which visits only the cells of this rank and knows no opposite nodes.
+    using namespace shell_element;
+    const unsigned                 n = n_dofs();
+    dealii::DynamicSparsityPattern pattern(n + n_extra);
+    for (const std::array<int, shell_element::n_dofs> &element : dofs)
+      for (unsigned i = 0; i < n_own_dofs; ++i)
+        for (unsigned j = 0; j < shell_element::n_dofs; ++j)
+          if (element[j] >= 0)
+            {
+              pattern.add(element[i], element[j]);
+              pattern.add(element[j], element[i]);
+            }
     for (unsigned extra = n; extra < n + n_extra; ++extra)
       {
         for (const std::array<unsigned, n_components> &node : node_dofs)

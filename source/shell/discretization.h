@@ -15,7 +15,8 @@ namespace tribodraw
   class Discretization
   {
   public:
-    explicit Discretization(const BlankMesh &mesh);
+    /// @param smoothed the metric of an element depends on its neighbours
+    Discretization(const BlankMesh &mesh, bool smoothed);
     ~Discretization();
 
     unsigned n_dofs() const;
@@ -24,11 +25,18 @@ namespace tribodraw
     {
       return node_dofs[node][component];
     }
-    /// Numbers of an element's unknowns in the order of shell_element, for all elements.
+    /// Numbers of an element's unknowns in the order of shell_element, for all elements; -1 for those of opposite
+    /// nodes that do not exist. The five unknowns of a node follow each other.
     const std::array<int, shell_element::n_dofs> &
     element_dofs(unsigned element) const
     {
       return dofs[element];
+    }
+    /// Nodes opposite to the sides of an element; -1: none, or the metric is not smoothed.
+    const std::array<int, shell_element::n_sides> &
+    opposite_nodes(unsigned element) const
+    {
+      return opposite[element];
     }
     /// Elements this rank integrates, in ascending order.
     const std::vector<unsigned> &
@@ -44,10 +52,11 @@ namespace tribodraw
 
   private:
     struct FiniteElements;
-    std::unique_ptr<FiniteElements>                     finite_elements;
-    std::vector<std::array<unsigned, 5>>                node_dofs;
-    std::vector<std::array<int, shell_element::n_dofs>> dofs;
-    std::vector<unsigned>                               owned;
+    std::unique_ptr<FiniteElements>                      finite_elements;
+    std::vector<std::array<unsigned, 5>>                 node_dofs;
+    std::vector<std::array<int, shell_element::n_dofs>>  dofs;
+    std::vector<std::array<int, shell_element::n_sides>> opposite;
+    std::vector<unsigned>                                owned;
   };
 } // namespace tribodraw
 

@@ -1,3 +1,4 @@
+#include <tribodraw/material/point_batch.h>
 #include <tribodraw/shell/element.h>
 
 #include <Eigen/Geometry>
@@ -9,17 +10,30 @@ namespace tribodraw::shell_element
   namespace
   {
     using Tangents = std::array<Eigen::Vector3d, 2>; ///< phi_1, phi_2
-    using Strains  = Eigen::Matrix<double, 9, 1>;    ///< C_v and b, or forces conjugate to them
-    using Moduli   = Eigen::Matrix<double, 9, 9>;
+
+    // A point of integration feels the displacements of the nodes of the element and of one opposite node, and the
+    // directors of the element: unknowns of the element in their order, then those of the opposite node.
+    constexpr unsigned n_point_displacements = 12, n_point_dofs = n_own_dofs + 3;
+    using PointRow = std::array<double, n_point_dofs>;
 
     Tangents
-    surface_tangents(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &position)
+    tangents(const Eigen::Matrix<double, n_nodes, 2> &gradient, const Eigen::Vector3d &x0, const Eigen::Vector3d &x1,
+             const Eigen::Vector3d &x2)
     {
-      Tangents phi;
-      for (int a = 0; a < 2; ++a)
-        phi[a] = reference.gradient(0, a) * position[0] + reference.gradient(1, a) * position[1]
-                 + reference.gradient(2, a) * position[2];
-      return phi;
+      return { gradient(0, 0) * x0 + gradient(1, 0) * x1 + gradient(2, 0) * x2,
+               gradient(0, 1) * x0 + gradient(1, 1) * x1 + gradient(2, 1) * x2 };
+    }
+
+    Tangents
+    own_tangents(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &x)
+    {
+      return tangents(reference.gradient, x[0], x[1], x[2]);
+    }
+
+    Tangents
+    neighbour_tangents(const Side &side, const NodeState &nodes, const unsigned k)
+    {
+      return tangents(side.gradient, nodes.position[k], nodes.position[(k + 1) % n_nodes], nodes.opposite[k]);
     }
 
     Vector3
@@ -38,118 +52,197 @@ namespace tribodraw::shell_element
       return b;
     }
 
-    /// Gradient of the quadratic interpolation of b with the mid-side values eliminated (see the header).
-    BendingMatrix
-    make_bending_matrix(const Eigen::Matrix<double, n_nodes, 2>    &gradient,
-                        const std::array<Eigen::Vector2d, n_nodes> &plane_position,
-                        const std::array<double, n_nodes>          &barycentric)
+    /// Symmetric 3x3 moduli: (11,11), (22,22), (12,12), (11,22), (11,12), (22,12), the order of PointBatch.
+    struct Moduli
     {
-      BendingMatrix bending;
-      for (unsigned i = 0; i < n_nodes; ++i)
-        {
-          // slope[b](a, c) = d (d_b b_a) / d b_{c,i}
-          std::array<Eigen::Matrix2d, 2> slope;
-          for (unsigned b = 0; b < 2; ++b)
-            slope[b] = (4 * barycentric[i] - 1) * gradient(i, b) * Eigen::Matrix2d::Identity();
-          for (unsigned side = 1; side < n_nodes; ++side)
-            {
-              const unsigned        j        = (i + side) % n_nodes;
-              const Eigen::Vector2d s        = (plane_position[j] - plane_position[i]).normalized();
-              const Eigen::Matrix2d mid_side = 0.5 * Eigen::Matrix2d::Identity() - 0.75 * s * s.transpose();
-              for (unsigned b = 0; b < 2; ++b)
-                slope[b] += 4 * (barycentric[j] * gradient(i, b) + barycentric[i] * gradient(j, b)) * mid_side;
-            }
-          for (unsigned c = 0; c < 2; ++c)
-            {
-              bending(0, 2 * i + c) = slope[0](0, c);
-              bending(1, 2 * i + c) = slope[1](1, c);
-              bending(2, 2 * i + c) = 0.5 * (slope[1](0, c) + slope[0](1, c));
-            }
-        }
-      return bending;
-    }
+      std::array<double, 6> value{};
 
-    /// Membrane forces, moments and moduli of one in-plane point.
+      std::array<double, 3>
+      times(const double x, const double y, const double z) const
+      {
+        return { value[0] * x + value[3] * y + value[4] * z, value[3] * x + value[1] * y + value[5] * z,
+                 value[4] * x + value[5] * y + value[2] * z };
+      }
+    };
+
+    /// Membrane forces, moments and moduli of one in-plane point, times its area.
     struct SectionResponse
     {
       Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
-      Matrix3 membrane = Matrix3::Zero(), coupling = Matrix3::Zero(), bending = Matrix3::Zero();
+      Moduli  membrane, coupling, bending;
     };
 
-    /// Integrate the material over the thickness; adds to @p summary, weighted by @p area.
-    SectionResponse
-    integrate_thickness(const Vector3 &C, const Vector3 &curvature_change, const double area, const Section &section,
-                        const Options &options, const PlasticState *old_states, PlasticState *new_states,
-                        Summary &summary)
+    /// Lever of a thickness point: 2 z lambda.
+    double
+    lever(const Section &section, const std::size_t layer)
     {
-      SectionResponse      response;
-      const SheetMaterial &material = *section.material;
+      return section.rule->point[layer] * section.thickness * section.thickness_stretch;
+    }
+
+    SectionResponse
+    integrate_thickness(const PointBatch &batch, const unsigned first, const Section &section, const double area,
+                        const bool with_tangent)
+    {
+      SectionResponse response;
       for (std::size_t l = 0; l < section.rule->point.size(); ++l)
         {
-          const double  weight = section.thickness * section.rule->weight[l];
-          const double  lever  = section.rule->point[l] * section.thickness * section.thickness_stretch; // 2 z lambda
-          const Vector3 Cz     = C + lever * curvature_change;
-          if (!(Cz[0] > 0 && Cz[0] * Cz[1] - Cz[2] * Cz[2] > 0))
+          const std::size_t i      = first + l;
+          const double      weight = area * section.thickness * section.rule->weight[l], arm = lever(section, l);
+          for (unsigned c = 0; c < 3; ++c)
             {
-              summary.valid = false;
-              return response;
+              response.force[c] += weight * batch.stress[c][i];
+              response.moment[c] += weight * arm * batch.stress[c][i];
             }
-          CauchyGreenResponse point = evaluate_in_cauchy_green(material, Cz, old_states[l], options.time_increment,
-                                                               new_states[l], options.loading_tangent);
-          if (!point.update.converged)
-            {
-              summary.valid = false;
-              return response;
-            }
-          response.force += weight * point.stress;
-          response.moment += weight * lever * point.stress;
-          summary.mean_stress += area * weight * point.update.stress;
-          summary.thickness_strain += area * weight * material.thickness_strain(point.strain, new_states[l]);
-          summary.elastic_energy += area * weight * point.update.elastic_energy;
-          summary.plastic_work += area * weight * point.update.plastic_work;
-          if (options.tangent)
-            {
-              if (options.elastic_blend > 0 && (point.update.plastic || options.loading_tangent))
-                {
-                  const Matrix3 P = LogarithmicStrain(Cz).derivative();
-                  point.tangent.noalias()
-                      += options.elastic_blend * P.transpose() * (material.elasticity() - point.update.tangent) * P;
-                }
-              response.membrane += weight * point.tangent;
-              response.coupling += weight * lever * point.tangent;
-              response.bending += weight * lever * lever * point.tangent;
-            }
+          if (with_tangent)
+            for (unsigned c = 0; c < 6; ++c)
+              {
+                const double modulus = weight * batch.tangent[c][i];
+                response.membrane.value[c] += modulus;
+                response.coupling.value[c] += arm * modulus;
+                response.bending.value[c] += arm * arm * modulus;
+              }
         }
       return response;
     }
 
-    /// Derivative of the strains (C_v, b) by the degrees of freedom.
-    Eigen::Matrix<double, 9, n_dofs>
-    strain_derivative(const Reference &reference, const Tangents &phi, const NodeState &nodes)
+    void
+    add_to_summary(const PointBatch &batch, const Section &section, const double area, Summary &summary)
     {
-      Eigen::Matrix<double, 9, n_dofs> B = Eigen::Matrix<double, 9, n_dofs>::Zero();
-      for (unsigned i = 0; i < n_nodes; ++i)
+      const std::size_t n_layers = section.rule->point.size();
+      for (unsigned i = 0; i < batch.n; ++i)
         {
-          const double g1 = reference.gradient(i, 0), g2 = reference.gradient(i, 1);
-          B.block<1, 3>(0, 5 * i) = 2 * g1 * phi[0].transpose();
-          B.block<1, 3>(1, 5 * i) = 2 * g2 * phi[1].transpose();
-          B.block<1, 3>(2, 5 * i) = g1 * phi[1].transpose() + g2 * phi[0].transpose();
-          for (unsigned j = 0; j < n_nodes; ++j)
-            {
-              B.block<1, 3>(3 + 2 * j, 5 * i) = g1 * nodes.director[j].transpose();
-              B.block<1, 3>(4 + 2 * j, 5 * i) = g2 * nodes.director[j].transpose();
-            }
-          for (unsigned a = 0; a < 2; ++a)
-            for (unsigned t = 0; t < 2; ++t)
-              B(3 + 2 * i + a, 5 * i + 3 + t) = phi[a].dot(nodes.frame[i][t]);
+          const double share = section.rule->weight[i % n_layers] / n_in_plane;
+          for (unsigned c = 0; c < 3; ++c)
+            summary.mean_stress[c] += share * batch.logarithmic_stress[c][i];
+          summary.thickness_strain += share * batch.thickness_strain[i];
+          summary.elastic_energy += share * batch.elastic_energy[i];
+          summary.plastic_work += share * batch.plastic_work[i];
         }
+      summary.elastic_energy *= area * section.thickness;
+      summary.plastic_work *= area * section.thickness;
+    }
+
+    /// Derivatives of the metric and the curvature of a point by the unknowns it feels.
+    struct PointDerivative
+    {
+      std::array<PointRow, 3> metric{}, curvature{};
+    };
+
+    /// Derivative of the metric (C_11, C_22, C_12) by the positions of three nodes, nine numbers a row.
+    std::array<std::array<double, 9>, 3>
+    metric_derivative(const Eigen::Matrix<double, n_nodes, 2> &gradient, const Tangents &phi)
+    {
+      std::array<std::array<double, 9>, 3> B;
+      for (unsigned i = 0; i < n_nodes; ++i)
+        for (unsigned c = 0; c < 3; ++c)
+          {
+            const double g1 = gradient(i, 0), g2 = gradient(i, 1);
+            B[0][3 * i + c] = 2 * g1 * phi[0][c];
+            B[1][3 * i + c] = 2 * g2 * phi[1][c];
+            B[2][3 * i + c] = g1 * phi[1][c] + g2 * phi[0][c];
+          }
       return B;
     }
 
-    /// Positive part of the symmetric 2x2 membrane force tensor.
-    Eigen::Matrix2d
-    tensile_part(const Eigen::Matrix2d &N)
+    void
+    set_metric_derivative(const Side &side, const unsigned k, const std::array<std::array<double, 9>, 3> &own,
+                          const Tangents &neighbour, PointDerivative &derivative)
     {
+      for (unsigned r = 0; r < 3; ++r)
+        for (unsigned j = 0; j < 9; ++j)
+          derivative.metric[r][j]
+              = side.own(r, 0) * own[0][j] + side.own(r, 1) * own[1][j] + side.own(r, 2) * own[2][j];
+      if (side.share == 0)
+        return;
+      const auto     other = metric_derivative(side.gradient, neighbour);
+      const unsigned first = 3 * k, second = 3 * ((k + 1) % n_nodes);
+      for (unsigned r = 0; r < 3; ++r)
+        for (unsigned c = 0; c < 3; ++c)
+          {
+            derivative.metric[r][first + c] += side.share * other[r][c];
+            derivative.metric[r][second + c] += side.share * other[r][3 + c];
+            derivative.metric[r][n_own_dofs + c] = side.share * other[r][6 + c];
+          }
+    }
+
+    void
+    set_curvature_derivative(const Reference &reference, const unsigned k, const NodeState &nodes,
+                             const Eigen::Matrix<double, n_covariant, 2> &turning, PointDerivative &derivative)
+    {
+      const BendingMatrix &bending = reference.bending[k];
+      for (unsigned r = 0; r < 3; ++r)
+        {
+          PointRow &row = derivative.curvature[r];
+          for (unsigned a = 0; a < 2; ++a)
+            {
+              const Eigen::Vector3d v = bending(r, a) * nodes.director[0] + bending(r, 2 + a) * nodes.director[1]
+                                        + bending(r, 4 + a) * nodes.director[2];
+              for (unsigned i = 0; i < n_nodes; ++i)
+                for (unsigned c = 0; c < 3; ++c)
+                  row[displacement_dof(i, c)] += reference.gradient(i, a) * v[c];
+            }
+          for (unsigned i = 0; i < n_nodes; ++i)
+            for (unsigned t = 0; t < 2; ++t)
+              row[director_dof(i, t)]
+                  = bending(r, 2 * i) * turning(2 * i, t) + bending(r, 2 * i + 1) * turning(2 * i + 1, t);
+        }
+    }
+
+    /// Add a multiple of @p columns, those of the element and of the opposite node, to a row of the stiffness.
+    void
+    add_row(const double factor, const PointRow &columns, double *own, double *opposite)
+    {
+      for (unsigned j = 0; j < n_own_dofs; ++j)
+        own[j] += factor * columns[j];
+      for (unsigned j = 0; j < 3; ++j)
+        opposite[j] += factor * columns[n_own_dofs + j];
+    }
+
+    /// B^T D B of one point.
+    void
+    add_material_stiffness(const PointDerivative &B, const SectionResponse &section, const unsigned k,
+                           const bool shared, TangentMatrix &K)
+    {
+      std::array<PointRow, 3> force, moment; // derivatives
+      for (unsigned j = 0; j < n_point_dofs; ++j)
+        {
+          const auto NC = section.membrane.times(B.metric[0][j], B.metric[1][j], B.metric[2][j]);
+          const auto NK = section.coupling.times(B.curvature[0][j], B.curvature[1][j], B.curvature[2][j]);
+          const auto MC = section.coupling.times(B.metric[0][j], B.metric[1][j], B.metric[2][j]);
+          const auto MK = section.bending.times(B.curvature[0][j], B.curvature[1][j], B.curvature[2][j]);
+          for (unsigned r = 0; r < 3; ++r)
+            {
+              force[r][j]  = NC[r] + NK[r];
+              moment[r][j] = MC[r] + MK[r];
+            }
+        }
+      const unsigned opposite = opposite_dof(k, 0);
+      for (unsigned i = 0; i < n_own_dofs; ++i)
+        {
+          double *own = K.data() + i * n_dofs;
+          if (i < director_dof(0, 0))
+            for (unsigned r = 0; r < 3; ++r)
+              add_row(B.metric[r][i], force[r], own, own + opposite);
+          for (unsigned r = 0; r < 3; ++r)
+            add_row(B.curvature[r][i], moment[r], own, own + opposite);
+        }
+      if (shared)
+        for (unsigned c = 0; c < 3; ++c)
+          {
+            double *own = K.data() + (opposite + c) * n_dofs;
+            for (unsigned r = 0; r < 3; ++r)
+              add_row(B.metric[r][n_own_dofs + c], force[r], own, own + opposite);
+          }
+    }
+
+    /// Tensor 2 N of the second variation of the metric under the forces N conjugate to (C_11, C_22, C_12).
+    Eigen::Matrix2d
+    membrane_tensor(const Vector3 &force, const bool tension_only)
+    {
+      Eigen::Matrix2d N;
+      N << 2 * force[0], force[2], force[2], 2 * force[1];
+      if (!tension_only)
+        return N;
       const double mean = 0.5 * (N(0, 0) + N(1, 1)), half = 0.5 * (N(0, 0) - N(1, 1));
       const double radius = std::hypot(half, N(0, 1));
       const double n1 = mean + radius, n2 = mean - radius;
@@ -160,110 +253,112 @@ namespace tribodraw::shell_element
       return n1 / (n1 - n2) * (N - n2 * Eigen::Matrix2d::Identity());
     }
 
-    /// Stiffness from the second variation of the strains under the forces q conjugate to (C_v, b).
+    /// Second variation of the metric of one triangle, whose nodes have their displacements at @p first_dof.
     void
-    add_geometric_stiffness(const Reference &reference, const NodeState &nodes,
-                            const Eigen::Matrix<double, n_covariant, 1> &b, const Strains &q, const bool tension_only,
-                            TangentMatrix &K)
+    add_membrane_geometry(const Eigen::Matrix<double, n_nodes, 2> &gradient, const Eigen::Matrix2d &N,
+                          const std::array<unsigned, n_nodes> &first_dof, TangentMatrix &K)
     {
-      Eigen::Matrix2d N;
-      N << 2 * q[0], q[2], q[2], 2 * q[1];
-      if (tension_only)
-        N = tensile_part(N);
-      for (unsigned i = 0; i < n_nodes; ++i)
-        for (unsigned j = 0; j < n_nodes; ++j)
-          {
-            const double k = reference.gradient.row(i) * N * reference.gradient.row(j).transpose();
-            for (unsigned c = 0; c < 3; ++c)
-              K(5 * i + c, 5 * j + c) += k;
-          }
       for (unsigned i = 0; i < n_nodes; ++i)
         {
-          const double m1 = q[3 + 2 * i], m2 = q[4 + 2 * i];
+          const double n1 = gradient(i, 0) * N(0, 0) + gradient(i, 1) * N(1, 0);
+          const double n2 = gradient(i, 0) * N(0, 1) + gradient(i, 1) * N(1, 1);
+          for (unsigned j = 0; j < n_nodes; ++j)
+            {
+              const double k = n1 * gradient(j, 0) + n2 * gradient(j, 1);
+              for (unsigned c = 0; c < 3; ++c)
+                K(first_dof[i] + c, first_dof[j] + c) += k;
+            }
+        }
+    }
+
+    /// Second variation of the covariant components of the directors under the forces @p m conjugate to them.
+    void
+    add_director_geometry(const Reference &reference, const NodeState &nodes,
+                          const Eigen::Matrix<double, n_covariant, 1> &b,
+                          const Eigen::Matrix<double, n_covariant, 1> &m, TangentMatrix &K)
+    {
+      for (unsigned i = 0; i < n_nodes; ++i)
+        {
+          const double m1 = m[2 * i], m2 = m[2 * i + 1];
           for (unsigned s = 0; s < n_nodes; ++s)
             {
               const double k = m1 * reference.gradient(s, 0) + m2 * reference.gradient(s, 1);
               for (unsigned t = 0; t < 2; ++t)
                 for (unsigned c = 0; c < 3; ++c)
                   {
-                    K(5 * s + c, 5 * i + 3 + t) += k * nodes.frame[i][t][c];
-                    K(5 * i + 3 + t, 5 * s + c) += k * nodes.frame[i][t][c];
+                    K(displacement_dof(s, c), director_dof(i, t)) += k * nodes.frame[i][t][c];
+                    K(director_dof(i, t), displacement_dof(s, c)) += k * nodes.frame[i][t][c];
                   }
             }
           // The director stays a unit vector: its second variation is -(dd . dd) d.
           const double k = m1 * b[2 * i] + m2 * b[2 * i + 1];
           for (unsigned t = 0; t < 2; ++t)
-            K(5 * i + 3 + t, 5 * i + 3 + t) -= k;
+            K(director_dof(i, t), director_dof(i, t)) -= k;
+        }
+    }
+
+    /// Kinematics of an element: everything that the points need.
+    struct Kinematics
+    {
+      Tangents                              phi;
+      std::array<Tangents, n_sides>         neighbour;
+      Eigen::Matrix<double, n_covariant, 1> b;
+      Eigen::Matrix<double, n_covariant, 2> turning; ///< derivative of b by the increments of its director
+
+      Kinematics(const Reference &reference, const NodeState &nodes)
+          : phi(own_tangents(reference, nodes.position)), b(covariant_components(phi, nodes))
+      {
+        for (unsigned k = 0; k < n_sides; ++k)
+          if (reference.side[k].share != 0)
+            neighbour[k] = neighbour_tangents(reference.side[k], nodes, k);
+        for (unsigned i = 0; i < n_nodes; ++i)
+          for (unsigned a = 0; a < 2; ++a)
+            for (unsigned t = 0; t < 2; ++t)
+              turning(2 * i + a, t) = phi[a].dot(nodes.frame[i][t]);
+      }
+
+      Vector3
+      metric_at(const Side &side, const unsigned k) const
+      {
+        Vector3 C = side.own * metric(phi);
+        if (side.share != 0)
+          C += side.share * metric(neighbour[k]);
+        return C;
+      }
+    };
+
+    void
+    fill(const Reference &reference, const Kinematics &kinematics, const Section &section, PointBatch &batch)
+    {
+      const std::size_t n_layers = section.rule->point.size();
+      batch.n                    = static_cast<unsigned>(n_in_plane * n_layers);
+      for (unsigned k = 0; k < n_in_plane; ++k)
+        {
+          const Vector3 C      = kinematics.metric_at(reference.side[k], k);
+          const Vector3 change = reference.bending[k] * kinematics.b - reference.initial_curvature[k];
+          for (std::size_t l = 0; l < n_layers; ++l)
+            for (unsigned c = 0; c < 3; ++c)
+              batch.C[c][k * n_layers + l] = C[c] + lever(section, l) * change[c];
         }
     }
   } // namespace
 
-  std::array<Eigen::Vector3d, 2>
-  frame_along(const Eigen::Vector3d &axis, const Eigen::Vector3d &director)
-  {
-    const Eigen::Vector3d first = (axis - axis.dot(director) * director).normalized();
-    return { first, director.cross(first) };
-  }
-
-  void
-  turn(Eigen::Vector3d &director, std::array<Eigen::Vector3d, 2> &frame, const double w1, const double w2)
-  {
-    const double angle = std::hypot(w1, w2);
-    if (angle == 0)
-      return;
-    const Eigen::Vector3d along  = (w1 * frame[0] + w2 * frame[1]) / angle;
-    const Eigen::Vector3d turned = std::cos(angle) * along - std::sin(angle) * director;
-    const Eigen::Vector3d first  = frame[0] + frame[0].dot(along) * (turned - along);
-    director                     = (std::cos(angle) * director + std::sin(angle) * along).normalized();
-    // Orthonormal anew: round-off would grow over thousands of turns.
-    frame = frame_along(first, director);
-  }
-
-  Reference
-  make_reference(const NodeState &nodes)
-  {
-    const Eigen::Vector3d u = nodes.position[1] - nodes.position[0], v = nodes.position[2] - nodes.position[0];
-    const Eigen::Vector3d area_vector = 0.5 * u.cross(v);
-    const Eigen::Vector3d normal      = area_vector.normalized();
-    Eigen::Vector3d       axis        = Eigen::Vector3d::UnitX();
-    if (std::abs(normal.x()) > 0.99)
-      axis = Eigen::Vector3d::UnitY();
-    const Eigen::Vector3d first  = (axis - normal.dot(axis) * normal).normalized();
-    const Eigen::Vector3d second = normal.cross(first);
-
-    Reference                            reference;
-    std::array<Eigen::Vector2d, n_nodes> plane;
-    reference.area = area_vector.norm();
-    for (unsigned i = 0; i < n_nodes; ++i)
-      {
-        const Eigen::Vector3d r = nodes.position[i] - nodes.position[0];
-        plane[i]                = { r.dot(first), r.dot(second) };
-      }
-    for (unsigned i = 0; i < n_nodes; ++i)
-      {
-        const Eigen::Vector2d opposite = plane[(i + 2) % 3] - plane[(i + 1) % 3];
-        reference.gradient.row(i) << -opposite[1] / (2 * reference.area), opposite[0] / (2 * reference.area);
-      }
-    for (unsigned p = 0; p < n_in_plane; ++p)
-      {
-        std::array<double, n_nodes> barycentric{ 1. / 6, 1. / 6, 1. / 6 };
-        barycentric[p]                 = 2. / 3;
-        reference.bending[p]           = make_bending_matrix(reference.gradient, plane, barycentric);
-        reference.initial_curvature[p] = curvature(reference, nodes, p);
-      }
-    return reference;
-  }
-
   Vector3
   mid_surface_metric(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &position)
   {
-    return metric(surface_tangents(reference, position));
+    return metric(own_tangents(reference, position));
+  }
+
+  Vector3
+  side_metric(const Reference &reference, const NodeState &nodes, const unsigned side)
+  {
+    return Kinematics(reference, nodes).metric_at(reference.side[side], side);
   }
 
   Vector3
   curvature(const Reference &reference, const NodeState &nodes, const unsigned in_plane_point)
   {
-    return reference.bending[in_plane_point] * covariant_components(surface_tangents(reference, nodes.position), nodes);
+    return reference.bending[in_plane_point] * covariant_components(own_tangents(reference, nodes.position), nodes);
   }
 
   Summary
@@ -271,49 +366,60 @@ namespace tribodraw::shell_element
             const PlasticState *old_states, PlasticState *new_states, ForceVector &force, TangentMatrix &tangent)
   {
     Summary               summary;
-    const Tangents        phi    = surface_tangents(reference, nodes.position);
+    const Kinematics      kinematics(reference, nodes);
+    const Tangents       &phi    = kinematics.phi;
     const Eigen::Vector3d normal = phi[0].cross(phi[1]);
     // Turned inside out against its own directors.
     summary.valid = normal.dot(nodes.director[0] + nodes.director[1] + nodes.director[2]) > 0;
     if (!summary.valid)
       return summary;
 
-    const Vector3     C          = metric(phi);
-    const auto        b          = covariant_components(phi, nodes);
-    const double      point_area = reference.area / n_in_plane;
-    const std::size_t n_layers   = section.rule->point.size();
-    Strains           q          = Strains::Zero();
-    Moduli            D          = Moduli::Zero();
-    for (unsigned p = 0; p < n_in_plane; ++p)
-      {
-        const BendingMatrix  &bending  = reference.bending[p];
-        const Vector3         change   = bending * b - reference.initial_curvature[p];
-        const SectionResponse response = integrate_thickness(
-            C, change, point_area, section, options, old_states + p * n_layers, new_states + p * n_layers, summary);
-        if (!summary.valid)
-          return summary;
-        q.head<3>() += point_area * response.force;
-        q.tail<n_covariant>() += point_area * bending.transpose() * response.moment;
-        if (options.tangent)
-          {
-            D.topLeftCorner<3, 3>() += point_area * response.membrane;
-            D.topRightCorner<3, n_covariant>() += point_area * response.coupling * bending;
-            D.bottomRightCorner<n_covariant, n_covariant>()
-                += point_area * bending.transpose() * response.bending * bending;
-          }
-      }
-    const double volume = reference.area * section.thickness;
-    summary.mean_stress /= volume;
-    summary.thickness_strain /= volume;
+    PointBatch batch;
+    fill(reference, kinematics, section, batch);
+    summary.valid
+        = evaluate(*section.material, batch, old_states, new_states,
+                   { options.time_increment, options.tangent, options.loading_tangent, options.elastic_blend });
+    if (!summary.valid)
+      return summary;
+    add_to_summary(batch, section, reference.area, summary);
 
-    const Eigen::Matrix<double, 9, n_dofs> B = strain_derivative(reference, phi, nodes);
-    force                                    = B.transpose() * q;
+    force.setZero();
+    if (options.tangent)
+      tangent.setZero();
+    const auto                            own        = metric_derivative(reference.gradient, phi);
+    Vector3                               own_force  = Vector3::Zero();
+    Eigen::Matrix<double, n_covariant, 1> conjugated = Eigen::Matrix<double, n_covariant, 1>::Zero(); // to b
+    for (unsigned k = 0; k < n_in_plane; ++k)
+      {
+        const Side           &side = reference.side[k];
+        const SectionResponse response
+            = integrate_thickness(batch, static_cast<unsigned>(k * section.rule->point.size()), section,
+                                  reference.area / n_in_plane, options.tangent);
+        PointDerivative B;
+        set_metric_derivative(side, k, own, kinematics.neighbour[k], B);
+        set_curvature_derivative(reference, k, nodes, kinematics.turning, B);
+        for (unsigned r = 0; r < 3; ++r)
+          {
+            for (unsigned j = 0; j < n_own_dofs; ++j)
+              force[j] += response.force[r] * B.metric[r][j] + response.moment[r] * B.curvature[r][j];
+            for (unsigned c = 0; c < 3; ++c)
+              force[opposite_dof(k, c)] += response.force[r] * B.metric[r][n_own_dofs + c];
+          }
+        if (!options.tangent)
+          continue;
+        add_material_stiffness(B, response, k, side.share != 0, tangent);
+        own_force += side.own.transpose() * response.force;
+        conjugated += reference.bending[k].transpose() * response.moment;
+        if (side.share != 0)
+          add_membrane_geometry(side.gradient, membrane_tensor(side.share * response.force, options.tension_only),
+                                { displacement_dof(k, 0), displacement_dof((k + 1) % n_nodes, 0), opposite_dof(k, 0) },
+                                tangent);
+      }
     if (options.tangent)
       {
-        D.bottomLeftCorner<n_covariant, 3>()      = D.topRightCorner<3, n_covariant>().transpose();
-        const Eigen::Matrix<double, 9, n_dofs> DB = D * B;
-        tangent                                   = B.transpose().lazyProduct(DB);
-        add_geometric_stiffness(reference, nodes, b, q, options.tension_only, tangent);
+        add_membrane_geometry(reference.gradient, membrane_tensor(own_force, options.tension_only),
+                              { displacement_dof(0, 0), displacement_dof(1, 0), displacement_dof(2, 0) }, tangent);
+        add_director_geometry(reference, nodes, kinematics.b, conjugated, tangent);
       }
     return summary;
   }

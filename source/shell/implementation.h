@@ -17,7 +17,7 @@ namespace tribodraw
   struct Shell::Implementation
   {
     Implementation(const BlankMesh &mesh, double thickness, std::shared_ptr<const SheetMaterial> material,
-                   shell_element::ThicknessRule rule);
+                   shell_element::ThicknessRule rule, Membrane membrane);
 
     const BlankMesh                            mesh;
     const double                               thickness;
@@ -27,9 +27,19 @@ namespace tribodraw
 
     // Constant during the computation.
     std::vector<shell_element::Reference> reference; ///< owned
-    /// Position of an element's stiffness in the rows of the tangent, relative to the start of the row; owned.
-    /// Further unknowns stand at the end of the rows and do not change it.
-    std::vector<std::array<std::uint16_t, shell_element::n_dofs * shell_element::n_dofs>> offset;
+    /// Where the unknowns of the nodes of an element (own, then opposite) begin in the rows of the tangent, relative to
+    /// the start of the row; absent: not coupled. Further unknowns stand at the end of the rows and do not change it.
+    static constexpr std::uint16_t absent          = 0xffff;
+    static constexpr unsigned      n_element_nodes = shell_element::n_nodes + shell_element::n_sides;
+    std::vector<std::array<std::uint16_t, shell_element::n_dofs * n_element_nodes>> offset; ///< owned
+    /// Elements of this rank to whose forces a node contributes, in ascending order, with its number in them.
+    struct Contribution
+    {
+      unsigned element; ///< number among the owned ones
+      unsigned role;    ///< 0..2 own node, 3..5 opposite node
+    };
+    std::vector<std::size_t>     contribution_start; ///< of each node
+    std::vector<Contribution>    contributions;
     std::vector<double>          element_area, node_area; ///< undeformed, of all elements and nodes
     std::vector<Eigen::Vector3d> frame_axis;              ///< zero: free
 
@@ -58,6 +68,12 @@ namespace tribodraw
     {
       return shell_element::n_in_plane * rule.point.size();
     } ///< of an element
+    void make_contributions();
+    void make_offsets();
+    /// Sum of the element forces and tangents at a node; @p force has all unknowns.
+    void gather_forces(unsigned node, std::vector<double> &force) const;
+    void gather_tangents(unsigned node, SparseMatrix &tangent) const;
+
     shell_element::NodeState node_state(unsigned element, const Configuration &configuration) const;
     /// Thickness means of the equivalent plastic strain and the largest value of an owned element.
     double mean_eps_p(std::size_t owned_index) const;

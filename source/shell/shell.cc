@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -45,6 +44,23 @@ namespace tribodraw
       return c;
     }
 
+    shell_element::Neighbours
+    neighbours(const BlankMesh &mesh, const std::array<unsigned, 3> &triangle, const std::array<int, 3> &opposite,
+               const bool smoothed)
+    {
+      shell_element::Neighbours result;
+      for (unsigned k = 0; k < 3; ++k)
+        {
+          result.present[k]    = opposite[k] >= 0;
+          const auto both_ends = [&](const std::vector<bool> &on_plane) {
+            return !on_plane.empty() && on_plane[triangle[k]] && on_plane[triangle[(k + 1) % 3]];
+          };
+          result.mirrored[k]
+              = smoothed && !result.present[k] && (both_ends(mesh.on_x_plane) || both_ends(mesh.on_y_plane));
+        }
+      return result;
+    }
+
     void
     check(const BlankMesh &mesh, const double thickness)
     {
@@ -60,9 +76,9 @@ namespace tribodraw
 
   Shell::Implementation::Implementation(const BlankMesh &blank, const double sheet_thickness,
                                         std::shared_ptr<const SheetMaterial> sheet_material,
-                                        shell_element::ThicknessRule         thickness_rule)
+                                        shell_element::ThicknessRule thickness_rule, const Membrane membrane)
       : mesh(blank), thickness(sheet_thickness), material(std::move(sheet_material)), rule(std::move(thickness_rule)),
-        discretization(blank), node_area(blank.nodes.size(), 0.),
+        discretization(blank, membrane == Membrane::edge_smoothed), node_area(blank.nodes.size(), 0.),
         frame_axis(blank.nodes.size(), Eigen::Vector3d::Zero()), trial(undeformed(blank)), committed(trial),
         stretch(owned().size(), 1.), old_points(owned().size() * n_points()), new_points(old_points),
         old_summary(owned().size()), new_summary(owned().size()), forces(owned().size()), tangents(owned().size())
@@ -77,22 +93,11 @@ namespace tribodraw
           node_area[node] += element_area.back() / 3;
       }
     for (const unsigned element : owned())
-      reference.push_back(shell_element::make_reference(node_state(element, trial)));
-
-    const SparseMatrix pattern(discretization.columns(0));
-    offset.resize(owned().size());
-    for (std::size_t k = 0; k < owned().size(); ++k)
-      {
-        const auto &dofs = discretization.element_dofs(owned()[k]);
-        for (unsigned i = 0; i < shell_element::n_dofs; ++i)
-          for (unsigned j = 0; j < shell_element::n_dofs; ++j)
-            {
-              const std::size_t distance = pattern.position(dofs[i], dofs[j]) - pattern.row_start()[dofs[i]];
-              if (distance > std::numeric_limits<std::uint16_t>::max())
-                throw std::logic_error("A row of the tangent is too long: too many elements meet at a node.");
-              offset[k][i * shell_element::n_dofs + j] = static_cast<std::uint16_t>(distance);
-            }
-      }
+      reference.push_back(shell_element::make_reference(
+          node_state(element, trial), neighbours(mesh, mesh.triangles[element], discretization.opposite_nodes(element),
+                                                 membrane == Membrane::edge_smoothed)));
+    make_contributions();
+    make_offsets();
     update_derived();
   }
 
@@ -106,17 +111,20 @@ namespace tribodraw
         state.position[i]   = configuration.position[node];
         state.director[i]   = configuration.director[node];
         state.frame[i]      = configuration.frame[node];
+        const int opposite  = discretization.opposite_nodes(element)[i];
+        if (opposite >= 0)
+          state.opposite[i] = configuration.position[opposite];
       }
     return state;
   }
 
   Shell::Shell(const BlankMesh &mesh, const double thickness, std::shared_ptr<const SheetMaterial> material,
-               const unsigned n_thickness_points, const ThicknessPoints kind)
+               const unsigned n_thickness_points, const ThicknessPoints kind, const Membrane membrane)
   {
     check(mesh, thickness);
     data = std::make_unique<Implementation>(
         mesh, thickness, std::move(material),
-        shell_element::make_thickness_rule(n_thickness_points, kind == ThicknessPoints::lobatto));
+        shell_element::make_thickness_rule(n_thickness_points, kind == ThicknessPoints::lobatto), membrane);
   }
 
   Shell::~Shell() = default;

@@ -25,6 +25,11 @@ namespace tribodraw
     std::vector<Eigen::Vector3d> normals;
     double                       symmetry_factor = 1; ///< full part / modelled part (4 for a quarter)
 
+    /// Node opposite to each side of each triangle in the neighbour across it (side k from node k to node (k + 1) % 3),
+    /// -1 at the boundary. Throws InputError where more than two triangles share a side or two neighbours turn in
+    /// opposite directions.
+    std::vector<std::array<int, 3>> opposite_nodes() const;
+
     double smallest_edge() const;
     double largest_edge() const;
   };

@@ -11,7 +11,7 @@
 
 namespace tribodraw
 {
-  /// The sheet: 3-node Kirchhoff triangles (constant-strain membrane, discrete-Kirchhoff bending with a director at
+  /// The sheet: 3-node Kirchhoff triangles (edge-smoothed membrane, discrete-Kirchhoff bending with a director at
   /// each node), total Lagrangian, large rotations and strains, plasticity through the thickness. Mesh, unknowns,
   /// sparsity and partition are deal.II's (parallel::shared::Triangulation<2,3>, FESystem(FE_SimplexP(1), 5)); the
   /// element is plain C++.
@@ -36,9 +36,16 @@ namespace tribodraw
       lobatto ///< with points on the surfaces, where yielding in bending begins
     };
 
+    enum class Membrane
+    {
+      edge_smoothed,  ///< metric at a side: mean of the two triangles that share it (see doc/theory/sheet.md)
+      constant_strain ///< metric of the single triangle; stiff on coarse meshes, for comparison
+    };
+
     /// @param n_thickness_points 3 to 11
     Shell(const BlankMesh &mesh, double thickness, std::shared_ptr<const SheetMaterial> material,
-          unsigned n_thickness_points, ThicknessPoints kind = ThicknessPoints::gauss);
+          unsigned n_thickness_points, ThicknessPoints kind = ThicknessPoints::gauss,
+          Membrane membrane = Membrane::edge_smoothed);
     ~Shell();
 
     const BlankMesh &mesh() const;

@@ -21,14 +21,21 @@ namespace
     {
       NodeState nodes;
       nodes.position = { Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0.2, 0.1), Eigen::Vector3d(0.4, 1.7, -0.1) };
+      nodes.opposite
+          = { Eigen::Vector3d(1.1, -1.6, 0.2), Eigen::Vector3d(2.6, 1.9, 0), Eigen::Vector3d(-1.4, 0.8, 0.1) };
       for (unsigned i = 0; i < 3; ++i)
         {
           nodes.position[i] += 0.2 * vector();
+          nodes.opposite[i] += 0.2 * vector();
           nodes.director[i] = (Eigen::Vector3d::UnitZ() + 0.1 * vector()).normalized();
           nodes.frame[i]    = frame_along(vector(), nodes.director[i]);
         }
       undeformed = nodes;
-      reference  = make_reference(nodes);
+      // Elements in the interior, at an edge, at a corner with a plane of symmetry.
+      Neighbours neighbours;
+      neighbours.present  = { true, seed % 3 != 1, seed % 3 == 0 };
+      neighbours.mirrored = { false, false, seed % 3 == 2 };
+      reference           = make_reference(nodes, neighbours);
     }
 
     NodeState undeformed;
@@ -58,8 +65,9 @@ namespace
   {
     for (unsigned i = 0; i < 3; ++i)
       {
-        nodes.position[i] += increment.segment<3>(5 * i);
-        turn(nodes.director[i], nodes.frame[i], increment[5 * i + 3], increment[5 * i + 4]);
+        nodes.position[i] += increment.segment<3>(displacement_dof(i, 0));
+        nodes.opposite[i] += increment.segment<3>(opposite_dof(i, 0));
+        turn(nodes.director[i], nodes.frame[i], increment[director_dof(i, 0)], increment[director_dof(i, 1)]);
       }
     return nodes;
   }
@@ -94,7 +102,7 @@ namespace
     plastic                               = at.summary.plastic_work > 0;
     double       error                    = 0;
     const double step                     = 1e-6;
-    for (unsigned j = 0; j < 15; ++j)
+    for (unsigned j = 0; j < n_dofs; ++j)
       {
         const ForceVector difference
             = (evaluate(element.reference, moved(nodes, step * ForceVector::Unit(j)), material, old_states).force
@@ -116,7 +124,7 @@ TEST(ShellElement, ForcesAreTheGradientOfTheElasticEnergy)
   const Evaluation                at    = evaluate(element.reference, nodes, *material, states);
   ASSERT_TRUE(at.summary.valid);
   const double step = 1e-5;
-  for (unsigned j = 0; j < 15; ++j)
+  for (unsigned j = 0; j < n_dofs; ++j)
     {
       const auto energy = [&](const double s) {
         return evaluate(element.reference, moved(nodes, s * ForceVector::Unit(j)), *material, states)
@@ -172,6 +180,7 @@ TEST(ShellElement, RigidMotionNeitherStrainsNorLoads)
       for (unsigned i = 0; i < 3; ++i)
         {
           nodes.position[i] = turn_all * nodes.position[i] + shift;
+          nodes.opposite[i] = turn_all * nodes.opposite[i] + shift;
           nodes.director[i] = turn_all * nodes.director[i];
           for (auto &e : nodes.frame[i])
             e = turn_all * e;
@@ -194,8 +203,11 @@ TEST(ShellElement, TensionOnlyLeavesTensionAndDropsPressure)
   for (const double stretch : { 1.02, 0.98 })
     {
       NodeState nodes = element.undeformed;
-      for (auto &x : nodes.position)
-        x *= stretch;
+      for (unsigned i = 0; i < 3; ++i)
+        {
+          nodes.position[i] *= stretch;
+          nodes.opposite[i] *= stretch;
+        }
       const Evaluation exact   = evaluate(element.reference, nodes, *material, states);
       const Evaluation clipped = evaluate(element.reference, nodes, *material, states, tension_only);
       const double     change  = (clipped.tangent - exact.tangent).norm() / exact.tangent.norm();

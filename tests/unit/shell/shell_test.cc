@@ -66,11 +66,13 @@ TEST(Shell, AssembledOnAllRanksEqualsTheSumOfItsElements)
   const auto            rule             = shell_element::make_thickness_rule(5);
   const auto            sheet            = material();
   const auto            normals          = Shell(mesh, h, sheet, 5).node_normals();
+  const auto            opposites        = mesh.opposite_nodes();
   double                plastic_work     = 0;
   for (const auto &triangle : mesh.triangles)
     {
-      shell_element::NodeState undeformed, nodes;
-      Eigen::VectorXi          dofs(15);
+      shell_element::NodeState  undeformed, nodes;
+      Eigen::VectorXi           dofs(shell_element::n_dofs);
+      shell_element::Neighbours neighbours;
       for (unsigned i = 0; i < 3; ++i)
         {
           undeformed.position[i] = mesh.nodes[triangle[i]];
@@ -78,16 +80,30 @@ TEST(Shell, AssembledOnAllRanksEqualsTheSumOfItsElements)
           nodes.position[i]      = shell.trial().position[triangle[i]];
           nodes.director[i]      = shell.trial().director[triangle[i]];
           nodes.frame[i]         = shell.trial().frame[triangle[i]];
-          for (unsigned c = 0; c < 5; ++c)
-            dofs[5 * i + c] = static_cast<int>(shell.dof(triangle[i], c));
+          const int opposite     = opposites[&triangle - mesh.triangles.data()][i];
+          for (unsigned c = 0; c < 3; ++c)
+            {
+              dofs[shell_element::displacement_dof(i, c)] = static_cast<int>(shell.dof(triangle[i], c));
+              // Without a neighbour the entries vanish, wherever they are added.
+              dofs[shell_element::opposite_dof(i, c)]
+                  = static_cast<int>(shell.dof(opposite < 0 ? 0 : static_cast<unsigned>(opposite), c));
+            }
+          for (unsigned t = 0; t < 2; ++t)
+            dofs[shell_element::director_dof(i, t)] = static_cast<int>(shell.dof(triangle[i], 3 + t));
+          neighbours.present[i] = opposite >= 0;
+          if (opposite >= 0)
+            {
+              undeformed.opposite[i] = mesh.nodes[static_cast<unsigned>(opposite)];
+              nodes.opposite[i]      = shell.trial().position[static_cast<unsigned>(opposite)];
+            }
         }
       const std::vector<PlasticState> old_states(15);
       std::vector<PlasticState>       new_states(15);
       shell_element::ForceVector      f;
       shell_element::TangentMatrix    k;
       const auto                      summary
-          = shell_element::integrate(shell_element::make_reference(undeformed), nodes, { h, 1, &rule, sheet.get() }, {},
-                                     old_states.data(), new_states.data(), f, k);
+          = shell_element::integrate(shell_element::make_reference(undeformed, neighbours), nodes,
+                                     { h, 1, &rule, sheet.get() }, {}, old_states.data(), new_states.data(), f, k);
       ASSERT_TRUE(summary.valid);
       plastic_work += summary.plastic_work;
       expected_force(dofs) += f;
