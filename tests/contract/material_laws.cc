@@ -21,10 +21,17 @@ namespace
 {
   using Examples = std::map<std::string, std::string>;
 
-  const Examples locus_examples = { { "Hill 1948", paper::hill }, { "Vegter", paper::vegter }, { "von Mises", "" } };
+  const Examples locus_examples = {
+    { "Hill 1948", paper::hill }, { "Vegter", paper::vegter }, { "Yld2000-2d", paper::aluminium }, { "von Mises", "" }
+  };
 
   const Examples hardening_examples
-      = { { "Bergstroem-van Liempt", paper::bergstroem_van_liempt }, { "Swift", paper::swift } };
+      = { { "Bergstroem-van Liempt", paper::bergstroem_van_liempt },
+          { "Swift", paper::swift },
+          { "Swift-Voce", paper::swift_voce },
+          { "Voce", paper::voce },
+          { "tabulated", "set Source = list\nset Plastic strains = 0, 0.015, 0.05, 0.15, 0.3, 0.6\n"
+                         "set Flow stresses = 150, 190, 240, 310, 360, 410 MPa\n" } };
 
   const Examples limit_examples
       = { { "Abspoel-Scholting", "set R value = 2.21\nset Elongation A80 = 40 %\n"

@@ -39,6 +39,16 @@ namespace paper
                                                    "set Initial strain = 0.007117\n"
                                                    "set Hardening exponent = 0.2589\n";
 
+  /// AA2090-T3 (Barlat et al. 2003); AA6016-T4 (Habraken et al. 2022, Swift; Voce of another laboratory).
+  inline const std::string aluminium
+      = "set Exponent = 8\nset Coefficients = given\nset Alpha = 0.4865, 1.3783, 0.7536, "
+        "1.0246, 1.0363, 0.9036, 1.2321, 1.4858\n";
+  inline const std::string voce
+      = "set Initial stress = 140.2 MPa\nset Saturation stress = 330.2 MPa\nset Saturation rate = 12.4\n";
+  inline const std::string swift_voce = "set Weight of Swift = 0.4\nset Strength coefficient = 498.8 MPa\n"
+                                        "set Initial strain = 0.0089\nset Hardening exponent = 0.285\n"
+                                        + voce;
+
   template <class Interface>
   std::unique_ptr<Interface>
   make(const std::string &name, const std::string &text)
@@ -59,6 +69,8 @@ namespace paper
       return make<YieldLocus>("Vegter", vegter_interpolated);
     if (name == "Hill 1948")
       return make<YieldLocus>("Hill 1948", hill);
+    if (name == "Yld2000-2d")
+      return make<YieldLocus>("Yld2000-2d", aluminium);
     return make<YieldLocus>("von Mises", "");
   }
 
@@ -68,6 +80,10 @@ namespace paper
     using tribodraw::HardeningLaw;
     if (name == "Swift")
       return make<HardeningLaw>("Swift", swift);
+    if (name == "Voce")
+      return make<HardeningLaw>("Voce", voce);
+    if (name == "Swift-Voce")
+      return make<HardeningLaw>("Swift-Voce", swift_voce);
     return make<HardeningLaw>("Bergstroem-van Liempt", bergstroem_van_liempt);
   }
 
