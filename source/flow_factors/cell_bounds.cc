@@ -8,9 +8,9 @@ namespace tribodraw
 {
   namespace
   {
-    // Steps of conjugate gradients on the trial fields. The start is accurate but for the scale of a pixel, so a few
-    // steps win most.
-    constexpr unsigned n_improvements = 4;
+    // Steps of conjugate gradients on the trial fields. The start is accurate but for the scale of a pixel: after three
+    // steps the intervals are within 5 % of their final width (Gaussian maps, correlation length 4 and 8 pixels).
+    constexpr unsigned n_improvements = 3;
 
     CellTrialFields
     make_fields(const CellGrid &grid, const CellGap &gap, const int driven_axis, std::array<bool, 2> &conducts)

@@ -7,6 +7,7 @@
 #include <tribodraw/flow_factors/cell_bounds.h>
 #include <tribodraw/flow_factors/cell_flow.h>
 #include <tribodraw/flow_factors/cell_problem.h>
+#include <tribodraw/flow_factors/quarter_maps.h>
 
 #include <algorithm>
 #include <atomic>
@@ -180,6 +181,14 @@ namespace tribodraw
         return true;
       }
 
+      bool
+      use_checks(const FactorChecks &checks) override
+      {
+        settings.error_bounds = checks.error_bounds;
+        settings.quarter_maps = checks.quarter_maps;
+        return true;
+      }
+
     private:
       CellSettings settings;
       double       closed_gap;
@@ -281,6 +290,8 @@ namespace tribodraw
         FlowFactors   result = solve_cell_problem(grid, gap, settings, sq_reference);
         result.cut_height    = cut_heights[i];
         check_quality(result);
+        if (settings.quarter_maps)
+          add_quarter_maps(result, sheet, tool, settings, closed_gap * sq_reference, sq_reference);
         const std::vector<double> numbers = result.numbers();
         std::copy(numbers.begin(), numbers.end(), &packed[n_numbers * i]);
       });

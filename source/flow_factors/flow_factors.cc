@@ -44,8 +44,7 @@ namespace tribodraw
       action(f.cut_height);
       action(f.h_avg);
       action(f.contact_fraction);
-      for (auto *components :
-           { &f.phi_p, &f.phi_s, &f.phi_p_lower, &f.phi_p_upper, &f.phi_s_lower, &f.phi_s_upper })
+      for (auto *components : { &f.phi_p, &f.phi_s, &f.phi_p_lower, &f.phi_p_upper, &f.phi_s_lower, &f.phi_s_upper })
         for (auto &component : *components)
           action(component);
       for (auto *components :
@@ -99,6 +98,28 @@ namespace tribodraw
     return model;
   }
 
+  void
+  read_factor_checks(Parameters &parameters, FlowFactorModel *model)
+  {
+    FactorChecks checks;
+    checks.error_bounds = parameters.flag(
+        "Error bounds",
+        "Guaranteed lower and upper bounds of both factors of the gap that is constant in each pixel, from energies of "
+        "admissible fields, as further columns.",
+        Default{ "true", "costs less than the solution" });
+    checks.quarter_maps = parameters.flag(
+        "Quarter maps",
+        "Mean and standard deviation of the factors of the four quarters of the map at the same mean gap, as further "
+        "columns: shows how representative the map is. A quarter is solved with fixed pressures on two sides and no "
+        "flow "
+        "through the others, as it is not periodic.",
+        Default{ "false", "takes about as long again as the map itself" });
+    if (model && !model->use_checks(checks))
+      for (const char *entry : { "Error bounds", "Quarter maps" })
+        if (parameters.has(entry))
+          parameters.warning("'" + parameters.path() + "/" + entry + "' has no effect on the chosen model.");
+  }
+
   std::vector<double>
   read_separations(Parameters &parameters)
   {
@@ -130,9 +151,22 @@ namespace tribodraw
   CsvTable
   flow_factors_table(const std::vector<FlowFactors> &factors, const double sq_reference)
   {
-    CsvTable     table({ "cut_height_um", "h_avg_um", "h_avg_over_sq", "contact_fraction", "phi_p_xx", "phi_p_xy",
-                         "phi_p_yx", "phi_p_yy", "phi_s_xx", "phi_s_xy", "phi_s_yx", "phi_s_yy", "residual", "flux_error",
-                         "iterations" });
+    // Every row has the same columns: bounds and quarters are there if the first row has them.
+    const bool bounded = !factors.empty() && factors[0].bounded, quartered = !factors.empty() && factors[0].quartered;
+    std::vector<std::string> columns{ "cut_height_um", "h_avg_um", "h_avg_over_sq", "contact_fraction", "phi_p_xx",
+                                      "phi_p_xy",      "phi_p_yx", "phi_p_yy",      "phi_s_xx",         "phi_s_xy",
+                                      "phi_s_yx",      "phi_s_yy", "residual",      "flux_error",       "iterations" };
+    if (bounded)
+      for (const char *factor : { "phi_p", "phi_s" })
+        for (const char *component : { "_xx", "_xy", "_yx", "_yy" })
+          for (const char *end : { "_lower", "_upper" })
+            columns.push_back(std::string(factor) + component + end);
+    if (quartered)
+      for (const char *factor : { "phi_p", "phi_s" })
+        for (const char *component : { "_xx", "_yy" })
+          for (const char *what : { "_quarter_mean", "_quarter_sd" })
+            columns.push_back(std::string(factor) + component + what);
+    CsvTable     table(columns);
     const double um = units::factor("um");
     for (const FlowFactors &f : factors)
       {
@@ -141,6 +175,20 @@ namespace tribodraw
         row.insert(row.end(), f.phi_p.begin(), f.phi_p.end());
         row.insert(row.end(), f.phi_s.begin(), f.phi_s.end());
         row.insert(row.end(), { f.residual, f.flux_error, static_cast<long>(f.iterations) });
+        const auto add_pairs = [&row](const auto &first, const auto &second) {
+          for (std::size_t k = 0; k < first.size(); ++k)
+            row.insert(row.end(), { first[k], second[k] });
+        };
+        if (bounded)
+          {
+            add_pairs(f.phi_p_lower, f.phi_p_upper);
+            add_pairs(f.phi_s_lower, f.phi_s_upper);
+          }
+        if (quartered)
+          {
+            add_pairs(f.phi_p_quarter_mean, f.phi_p_quarter_sd);
+            add_pairs(f.phi_s_quarter_mean, f.phi_s_quarter_sd);
+          }
         table.add_row(std::move(row));
       }
     return table;

@@ -31,7 +31,8 @@ namespace tribodraw
     bool                  bounded = false;
     std::array<double, 4> phi_p_lower{}, phi_p_upper{}, phi_s_lower{}, phi_s_upper{};
 
-    /// Mean and standard deviation of the factors of the four quarters of the map at the same mean gap: components xx, yy.
+    /// Mean and standard deviation of the factors of the four quarters of the map at the same mean gap: components xx,
+    /// yy.
     bool                  quartered = false;
     std::array<double, 2> phi_p_quarter_mean{}, phi_p_quarter_sd{}, phi_s_quarter_mean{}, phi_s_quarter_sd{};
 
@@ -60,8 +61,15 @@ namespace tribodraw
   {
     CellBoundaryConditions boundary_conditions = CellBoundaryConditions::periodic;
     CellDiscretisation     discretisation      = CellDiscretisation::mean_gap;
-    bool                   error_bounds        = false; ///< fill FlowFactors::phi_p_lower ...
-    bool                   quarter_maps        = false; ///< fill FlowFactors::phi_p_quarter_mean ...
+    bool                   error_bounds        = false; ///< see FactorChecks
+    bool                   quarter_maps        = false;
+  };
+
+  /// What a solved cell shall tell of its own accuracy.
+  struct FactorChecks
+  {
+    bool error_bounds = false; ///< fill FlowFactors::phi_p_lower ...
+    bool quarter_maps = false; ///< fill FlowFactors::phi_p_quarter_mean ...
   };
 
   /// Flow factors as functions of the separation for a pair of surfaces: cell problem, published fits.
@@ -86,6 +94,14 @@ namespace tribodraw
     /// Text of everything the result depends on besides the maps, for the cache.
     virtual std::string fingerprint() const = 0;
 
+    /// Ask for checks of the results. A model that solves cells does them and returns true; for the others there is
+    /// nothing to check.
+    virtual bool
+    use_checks(const FactorChecks &)
+    {
+      return false;
+    }
+
     /// Hand over the cell settings that stand directly in section `Flow factors`. A model that solves cells keeps them
     /// and returns true; for the others they have no effect, and the reader warns if the file gives them.
     virtual bool
@@ -99,6 +115,9 @@ namespace tribodraw
   /// stand in the section itself, so that they keep their place whichever model is chosen; the reader hands them to
   /// the model. Returns nullptr if the choice of the model is wrong (recorded in @p parameters).
   std::unique_ptr<FlowFactorModel> read_flow_factors(Parameters &parameters);
+
+  /// Read `Error bounds` and `Quarter maps` of the current section and hand them to the model, which may be nullptr.
+  void read_factor_checks(Parameters &parameters, FlowFactorModel *model);
 
   /// Read `Separations` of the current section: h_avg/Sq, returned in descending order.
   std::vector<double> read_separations(Parameters &parameters);

@@ -32,7 +32,8 @@ namespace tribodraw
         }
         const auto scope = parameters.section("Flow factors");
         model            = read_flow_factors(parameters);
-        separations      = read_separations(parameters);
+        read_factor_checks(parameters, model.get());
+        separations = read_separations(parameters);
       }
 
       std::string

@@ -4,6 +4,7 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/parameters.h>
+#include <tribodraw/flow_factors/quarter_maps.h>
 
 #include <gtest/gtest.h>
 
@@ -49,6 +50,27 @@ TEST(CellProblem, the_same_on_every_number_of_ranks)
           EXPECT_EQ(parallel::min(all[i].phi_p[k]), parallel::max(all[i].phi_p[k]));
         }
       EXPECT_LT(all[i].residual, 1e-12);
+    }
+}
+
+TEST(CellProblem, checks_are_the_same_on_every_number_of_ranks)
+{
+  HeightMap  map = gaussian_map(48, 4, 23);
+  const auto m   = model("");
+  m->use_checks({ true, true });
+  const std::vector<double> cuts{ 3, 1, .4, -.8 };
+  const auto                all = m->compute(map, {}, 1, cuts, {});
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    {
+      CellSettings settings = periodic();
+      settings.error_bounds = true;
+      FlowFactors alone     = solve(map, cuts[i], 1, settings, {}, 3e-4);
+      add_quarter_maps(alone, map, {}, settings, 3e-4, 1);
+      EXPECT_TRUE(all[i].bounded);
+      EXPECT_TRUE(all[i].quartered);
+      const auto a = all[i].numbers(), b = alone.numbers();
+      for (std::size_t k = 1; k < a.size(); ++k) // the first is the cut height, which the cell does not know
+        EXPECT_NEAR(a[k], b[k], 1e-10) << k;
     }
 }
 

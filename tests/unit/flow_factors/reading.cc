@@ -48,13 +48,15 @@ TEST(ReadFlowFactors, wrong_choices_are_named)
 TEST(ReadFlowFactors, documentation_lists_all_entries)
 {
   Parameters parameters = Parameters::for_documentation();
-  read_flow_factors(parameters);
+  const auto model      = read_flow_factors(parameters);
+  read_factor_checks(parameters, model.get());
   read_separations(parameters);
   std::string paths;
   for (const EntryInfo &entry : parameters.entries())
     paths += entry.path + "\n";
-  for (const char *path :
-       { "Model", "Boundary conditions", "Discretisation", "Separations", "Cell problem/Closed gap" })
+  for (const char *path : { "Model", "Boundary conditions", "Discretisation", "Separations", "Error bounds",
+                            "Quarter maps", "Cell problem/Closed gap", "Patir-Cheng/Gap gamma", "Tripp/Anisotropy",
+                            "Wilson-Marsault/Sheet gamma", "Table/File" })
     EXPECT_NE(paths.find(std::string(path) + "\n"), std::string::npos) << path;
 }
 
@@ -92,4 +94,57 @@ TEST(FlowFactorsTable, columns)
   EXPECT_DOUBLE_EQ(std::get<double>(table.rows()[0][2]), 2);
   EXPECT_DOUBLE_EQ(std::get<double>(table.rows()[0][5]), .1);
   EXPECT_EQ(std::get<long>(table.rows()[0][14]), 2);
+}
+
+TEST(FlowFactorsTable, columns_of_checks)
+{
+  FlowFactors f;
+  f.bounded           = true;
+  f.quartered         = true;
+  f.phi_p_lower       = { { .1, .2, .3, .4 } };
+  f.phi_s_upper       = { { .5, .6, .7, .8 } };
+  f.phi_s_quarter_sd  = { { .01, .02 } };
+  const auto  table   = flow_factors_table({ f }, 1);
+  const auto &columns = table.columns();
+  const auto  at      = [&](const std::string &name) {
+    const auto column = std::find(columns.begin(), columns.end(), name);
+    EXPECT_NE(column, columns.end()) << name;
+    return std::get<double>(table.rows()[0][static_cast<std::size_t>(column - columns.begin())]);
+  };
+  EXPECT_EQ(columns.size(), 15u + 16u + 8u);
+  EXPECT_EQ(at("phi_p_xx_lower"), .1);
+  EXPECT_EQ(at("phi_p_yx_lower"), .3);
+  EXPECT_EQ(at("phi_s_xy_upper"), .6);
+  EXPECT_EQ(at("phi_s_yy_upper"), .8);
+  EXPECT_EQ(at("phi_s_yy_quarter_sd"), .02);
+}
+
+TEST(FlowFactors, numbers_survive_the_exchange)
+{
+  FlowFactors f;
+  f.cut_height              = 1;
+  f.phi_p_lower             = { { .1, .2, .3, .4 } };
+  f.phi_s_upper             = { { .5, .6, .7, .8 } };
+  f.phi_s_quarter_mean      = { { .9, 1 } };
+  f.iterations              = 7;
+  f.bounded                 = true;
+  const auto        numbers = f.numbers();
+  const FlowFactors g       = FlowFactors::from_numbers(numbers.data());
+  EXPECT_EQ(numbers.size(), FlowFactors::n_numbers());
+  EXPECT_EQ(g.numbers(), numbers);
+  EXPECT_EQ(g.phi_p_lower, f.phi_p_lower);
+  EXPECT_EQ(g.phi_s_quarter_mean, f.phi_s_quarter_mean);
+  EXPECT_EQ(g.iterations, 7u);
+  EXPECT_TRUE(g.bounded);
+  EXPECT_FALSE(g.quartered);
+}
+
+TEST(ReadFlowFactors, checks_warn_where_there_is_nothing_to_check)
+{
+  Parameters parameters = Parameters::from_text("set Model = Tripp\nset Quarter maps = true\n");
+  const auto model      = read_flow_factors(parameters);
+  read_factor_checks(parameters, model.get());
+  const auto warnings = parameters.finish();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("Quarter maps"), std::string::npos);
 }
