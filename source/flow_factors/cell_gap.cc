@@ -59,6 +59,14 @@ namespace tribodraw
         return i;
       }
 
+      // Put a new pixel into the tree of its neighbour.
+      void
+      follow(const int i, const int neighbour)
+      {
+        parent[i] = parent[neighbour];
+        offset[i] = offset[neighbour];
+      }
+
       // Join pixels a and b; the step from a to b crosses `step` periods.
       void
       join(const int a, const int b, const Offset step)
@@ -112,22 +120,40 @@ namespace tribodraw
     label_regions();
   }
 
+  // Runs of open pixels in a row share the parent of their first pixel; rows are joined where runs first meet.
   void
   CellConnectivity::label_regions()
   {
     RegionForest forest(grid.size());
-    for (int axis = 0; axis < 2; ++axis)
-      for (const CellGrid::Face &face : grid.faces[axis])
-        if (gap.open(face.lower) && gap.open(face.upper))
+    const int    nx = static_cast<int>(grid.nx), ny = static_cast<int>(grid.ny);
+    for (int iy = 0; iy < ny; ++iy)
+      {
+        const int first = iy * nx, below = iy > 0 ? first - nx : -1;
+        for (int ix = 0; ix < nx; ++ix)
           {
-            const int periods = face.upper < face.lower ? 1 : 0;
-            forest.join(face.lower, face.upper,
-                        axis == 0 ? RegionForest::Offset{ periods, 0 } : RegionForest::Offset{ 0, periods });
+            const int i = first + ix;
+            if (!gap.open(i))
+              continue;
+            const bool continued = ix > 0 && gap.open(i - 1);
+            if (continued)
+              forest.follow(i, i - 1);
+            if (below >= 0 && gap.open(below + ix) && !(continued && gap.open(below + ix - 1)))
+              forest.join(below + ix, i, {});
           }
-    root.resize(grid.size());
+      }
+    if (grid.periodic)
+      {
+        for (int iy = 0; iy < ny; ++iy)
+          if (gap.open(iy * nx + nx - 1) && gap.open(iy * nx))
+            forest.join(iy * nx + nx - 1, iy * nx, { 1, 0 });
+        for (int ix = 0; ix < nx; ++ix)
+          if (gap.open((ny - 1) * nx + ix) && gap.open(ix))
+            forest.join((ny - 1) * nx + ix, ix, { 0, 1 });
+      }
     RegionForest::Offset unused;
     for (std::size_t i = 0; i < grid.size(); ++i)
-      root[i] = forest.find(static_cast<int>(i), unused);
+      forest.parent[i] = forest.find(static_cast<int>(i), unused);
+    root  = std::move(forest.parent);
     wraps = std::move(forest.wraps);
   }
 

@@ -1,262 +1,384 @@
-#include <tribodraw/flow_factors/cell_multigrid.h>
+#include "row_kernels.h"
 
-#include <Eigen/SparseCholesky>
+#include <tribodraw/flow_factors/cell_coarsening.h>
+#include <tribodraw/flow_factors/cell_multigrid.h>
+#include <tribodraw/flow_factors/graph_multigrid.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 
 namespace tribodraw
 {
   namespace
   {
-    using Matrix = CellMultigrid::Matrix;
-    using Layout = CellMultigrid::Layout;
-
-    // Step from one pixel to a neighbour, -1, 0 or 1, across the periodic border too.
-    int
-    step(const int from, const int to, const int n)
+    template <class T>
+    void
+    close_row(T *x, const CellLayout &layout)
     {
-      const int d = to - from;
-      return d > 1 ? d - n : d < -1 ? d + n : d;
+      x[-1]        = layout.periodic ? x[layout.nx - 1] : T(0);
+      x[layout.nx] = layout.periodic ? x[0] : T(0);
     }
-
-    // Row of the interpolation: coarse unknowns with weights, at most four.
-    struct Weights
-    {
-      std::array<int, 4>    to{};
-      std::array<double, 4> value{};
-      int                   size = 0;
-
-      void
-      add(const int coarse, const double w)
-      {
-        for (int k = 0; k < size; ++k)
-          if (to[k] == coarse)
-            {
-              value[k] += w;
-              return;
-            }
-        if (size < 4)
-          {
-            to[size]      = coarse;
-            value[size++] = w;
-          }
-      }
-      void
-      scale(const double factor)
-      {
-        for (int k = 0; k < size; ++k)
-          value[k] *= factor;
-      }
-    };
-
-    // Interpolation of one level, pixel class by pixel class.
-    class Interpolation
-    {
-    public:
-      Interpolation(const Matrix &matrix_in, const Layout &layout_in)
-          : matrix(matrix_in), layout(layout_in), rows(static_cast<std::size_t>(matrix_in.rows()))
-      {
-        keep_even_pixels();
-        const auto class_of = [this](const int i) { return (layout.x[i] % 2) + (layout.y[i] % 2); };
-        for (const int wanted : { 1, 2 }) // pixels between two kept ones, then pixels between four
-          for (int i = 0; i < matrix.rows(); ++i)
-            if (class_of(i) == wanted)
-              wanted == 1 ? interpolate_on_edge(i) : interpolate_in_middle(i);
-      }
-
-      Matrix
-      prolongation() const
-      {
-        std::vector<Eigen::Triplet<double>> entries;
-        entries.reserve(rows.size() * 2);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          for (int k = 0; k < rows[i].size; ++k)
-            entries.emplace_back(static_cast<int>(i), rows[i].to[k], rows[i].value[k]);
-        Matrix result(matrix.rows(), static_cast<Eigen::Index>(coarse.x.size()));
-        result.setFromTriplets(entries.begin(), entries.end());
-        return result;
-      }
-
-      Layout coarse;
-
-    private:
-      const Matrix        &matrix;
-      const Layout        &layout;
-      std::vector<Weights> rows;
-
-      void
-      keep_even_pixels()
-      {
-        coarse.nx       = (layout.nx + 1) / 2;
-        coarse.ny       = (layout.ny + 1) / 2;
-        coarse.periodic = layout.periodic;
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          if (layout.x[i] % 2 == 0 && layout.y[i] % 2 == 0)
-            {
-              rows[i].add(static_cast<int>(coarse.x.size()), 1.);
-              coarse.x.push_back(layout.x[i] / 2);
-              coarse.y.push_back(layout.y[i] / 2);
-            }
-      }
-
-      // Between two kept pixels the values do not vary across the line that joins them: couplings are summed over
-      // the columns (or rows) of the 3 x 3 stencil. What leads to a missing pixel is left out.
-      void
-      interpolate_on_edge(const int i)
-      {
-        const bool            along_x = layout.x[i] % 2 == 1;
-        std::array<int, 3>    kept{ -1, -1, -1 };
-        std::array<double, 3> coupling{};
-        double                centre = 0;
-        for (Matrix::InnerIterator entry(matrix, i); entry; ++entry)
-          {
-            const int j  = static_cast<int>(entry.col());
-            const int dx = step(layout.x[i], layout.x[j], layout.nx), dy = step(layout.y[i], layout.y[j], layout.ny);
-            const int d = along_x ? dx : dy, across = along_x ? dy : dx;
-            coupling[d + 1] -= entry.value();
-            if (d != 0 && across == 0)
-              kept[d + 1] = rows[j].to[0];
-          }
-        centre = -coupling[1];
-        for (const int side : { 0, 2 })
-          if (kept[side] >= 0)
-            rows[i].add(kept[side], coupling[side]);
-          else
-            centre -= coupling[side];
-        finish(i, centre);
-      }
-
-      void
-      interpolate_in_middle(const int i)
-      {
-        double centre = 0;
-        for (Matrix::InnerIterator entry(matrix, i); entry; ++entry)
-          {
-            const Weights &other = rows[entry.col()];
-            if (entry.col() == i || other.size == 0)
-              centre += entry.value();
-            else
-              for (int k = 0; k < other.size; ++k)
-                rows[i].add(other.to[k], -entry.value() * other.value[k]);
-          }
-        finish(i, centre);
-      }
-
-      // Divide by the diagonal; a pixel that hangs on dropped pixels only is left to the smoother.
-      void
-      finish(const int i, const double centre)
-      {
-        if (rows[i].size == 0 || !(centre > 0))
-          rows[i].size = 0;
-        else
-          rows[i].scale(1 / centre);
-      }
-    };
   } // namespace
 
-  struct CellMultigrid::Level
+  // The finest level of the V-cycle. Each stage of a row first completes the stage before for the row and its
+  // neighbours, so that a row passes through all stages while it is in the cache.
+  //
+  // With an odd number of pixels, neighbours across the border of a periodic map have the same colour. Within a colour
+  // all pixels are relaxed from the old values, which keeps the cycle symmetric.
+  class CellMultigrid::Cycle
   {
-    Matrix          matrix, prolongation;
-    Eigen::VectorXd inverse_diagonal;
+  public:
+    Cycle(const CellMultigrid &m, int n);
 
-    explicit Level(Matrix m) : matrix(std::move(m)), inverse_diagonal(matrix.diagonal().cwiseInverse()) {}
+    std::vector<float>    rhs, result;
+    std::array<double, 4> product{}; // of residual and result
 
-    void
-    relax(const int i, const Eigen::VectorXd &rhs, Eigen::VectorXd &x) const
+    void run(const std::vector<double> &residual);
+
+  private:
+    enum Stage : char
     {
-      const int    *column = matrix.innerIndexPtr();
-      const double *value  = matrix.valuePtr();
-      double        r      = rhs[i];
-      for (int k = matrix.outerIndexPtr()[i]; k < matrix.outerIndexPtr()[i + 1]; ++k)
-        r -= value[k] * x[column[k]];
-      x[i] += r * inverse_diagonal[i];
+      untouched,
+      started,
+      relaxed,
+      restricted,
+      corrected,
+      relaxed_again
+    };
+
+    const CellMultigrid              &m;
+    const CellCoarsening             &coarsening;
+    const CellLayout                  l;
+    const int                         n; // right-hand sides
+    std::vector<float>                e; // what odd rows hand on to the coarse level, then its correction
+    std::vector<float>                zero, spare;
+    std::vector<float>                coarse_rhs, coarse_x;
+    std::array<std::vector<float>, 2> parity; // 1 at even pixels of a row, 1 at odd pixels
+    std::vector<Stage>                stage;
+    const bool                        odd_x, odd_y;          // same colour across the border
+    std::vector<float>                first_row, last_row;   // old values of both
+
+    int
+    wrapped(const int iy) const
+    {
+      return CellLayout::wrapped(iy, l.ny, l.periodic);
     }
+    bool
+    is_odd(const int iy) const
+    {
+      return wrapped(iy) >= 0 && wrapped(iy) % 2 == 1;
+    }
+    float *
+    row(std::vector<float> &field, const int iy, const int r)
+    {
+      return wrapped(iy) < 0 ? &zero[1] : &field[l.row(n, wrapped(iy), r)];
+    }
+    const float *
+    coefficients(const std::vector<float> &field, const int iy) const
+    {
+      return &field[l.row(1, iy, 0)];
+    }
+    const float *
+    colour(const int iy, const int c) const
+    {
+      return parity[(iy + c) % 2].data();
+    }
+    bool
+    reached(const int iy, const Stage wanted) const
+    {
+      return iy < 0 || stage[iy] >= wanted;
+    }
+
+    void relax(int iy, int c);
+    void remember_end_rows();
+    void add_border_residual(int iy, int r, float *d);
+    void start(int iy);
+    void finish_relaxation(int iy);
+    void restrict_row(int iy);
+    void restrict_values(int iy, int r);
+    void correct_row(int iy);
+    void relax_again(int iy);
+    void finish_row(int iy, const std::vector<double> &residual);
   };
 
-  struct CellMultigrid::Coarsest
+  CellMultigrid::Cycle::Cycle(const CellMultigrid &m_in, const int n_in)
+      : m(m_in), coarsening(*m_in.coarsening), l(m_in.k.layout), n(n_in), odd_x(l.periodic && l.nx % 2 == 1),
+        odd_y(l.periodic && l.ny % 2 == 1), first_row(l.stride() * n, 0.f), last_row(first_row)
   {
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> ldlt;
-  };
+    for (std::vector<float> *field : { &rhs, &result, &e })
+      field->assign(l.size(n), 0.f);
+    for (std::vector<float> *values : { &zero, &spare })
+      values->assign(l.stride(), 0.f);
+    coarse_rhs.resize(coarsening.site.size() * n);
+    coarse_x.resize(coarse_rhs.size());
+    for (int i = 0; i < l.nx; ++i)
+      for (const int c : { 0, 1 })
+        parity[c].push_back(i % 2 == c ? 1.f : 0.f);
+    stage.resize(l.ny);
+  }
 
-  CellMultigrid::CellMultigrid(Matrix matrix, Layout layout) : coarsest(std::make_unique<Coarsest>())
+  void
+  CellMultigrid::Cycle::relax(const int iy, const int c)
   {
-    constexpr int smallest_width = 12; // a direct solution of some hundred unknowns costs next to nothing
-    levels.push_back(std::make_unique<Level>(std::move(matrix)));
-    while (std::min(layout.nx, layout.ny) > smallest_width)
+    for (int r = 0; r < n; ++r)
       {
-        Level              &fine = *levels.back();
-        const Interpolation interpolation(fine.matrix, layout);
-        fine.prolongation = interpolation.prolongation();
-        if (fine.prolongation.cols() == 0)
-          break;
-        const Matrix restriction = fine.prolongation.transpose();
-        const Matrix product     = fine.matrix * fine.prolongation;
-        levels.push_back(std::make_unique<Level>(Matrix(restriction * product)));
-        layout = interpolation.coarse;
+        float *x     = row(result, iy, r);
+        float *below = odd_y && iy == 0 ? &last_row[l.row(n, 0, r)] : row(result, iy - 1, r);
+        float *above = odd_y && iy == l.ny - 1 ? &first_row[l.row(n, 0, r)] : row(result, iy + 1, r);
+        row_kernels::relax(l.nx, x, below, above, row(rhs, iy, r), coefficients(m.kx, iy), coefficients(m.ky, iy),
+                           coefficients(m.ky, iy + 1), coefficients(m.inverse, iy), colour(iy, c), &spare[1]);
+        close_row(x, l);
       }
-    coarsest->ldlt.compute(Eigen::SparseMatrix<double>(levels.back()->matrix));
+  }
+
+  // Keep the values of both end rows for each other, before either is relaxed.
+  void
+  CellMultigrid::Cycle::remember_end_rows()
+  {
+    if (!odd_y)
+      return;
+    std::copy_n(&result[l.row(n, 0, 0) - 1], first_row.size(), first_row.begin());
+    std::copy_n(&result[l.row(n, l.ny - 1, 0) - 1], last_row.size(), last_row.begin());
+  }
+
+  // From zero the second colour gets residuals from its own colour across the border only.
+  void
+  CellMultigrid::Cycle::add_border_residual(const int iy, const int r, float *d)
+  {
+    const float *x = row(result, iy, r), *kx = coefficients(m.kx, iy), *second = colour(iy, 1);
+    if (odd_x)
+      {
+        d[0] += second[0] * kx[0] * x[l.nx - 1];
+        d[l.nx - 1] += second[0] * kx[l.nx] * x[0];
+      }
+    if (odd_y && (iy == 0 || iy == l.ny - 1))
+      {
+        const float *ky    = coefficients(m.ky, iy == 0 ? 0 : l.ny);
+        const float *other = row(result, iy == 0 ? -1 : l.ny, r);
+        for (int i = 0; i < l.nx; ++i)
+          d[i] += second[i] * ky[i] * other[i];
+      }
+  }
+
+  void
+  CellMultigrid::Cycle::start(const int row_number)
+  {
+    const int iy = wrapped(row_number);
+    if (reached(iy, started))
+      return;
+    stage[iy] = started;
+    for (int r = 0; r < n; ++r)
+      {
+        float *x = row(result, iy, r);
+        row_kernels::relax_from_zero(l.nx, x, row(rhs, iy, r), coefficients(m.inverse, iy), colour(iy, 0));
+        close_row(x, l);
+      }
+  }
+
+  void
+  CellMultigrid::Cycle::finish_relaxation(const int row_number)
+  {
+    const int iy = wrapped(row_number);
+    if (reached(iy, relaxed))
+      return;
+    for (const int j : { iy - 1, iy, iy + 1 })
+      start(j);
+    stage[iy] = relaxed;
+    relax(iy, 1);
+  }
+
+  void
+  CellMultigrid::Cycle::restrict_row(const int row_number)
+  {
+    const int iy = wrapped(row_number);
+    if (reached(iy, restricted))
+      return;
+    for (const int j : { iy - 1, iy, iy + 1 })
+      finish_relaxation(j);
+    stage[iy] = restricted;
+    if (!is_odd(iy))
+      for (const int j : { iy - 1, iy + 1 })
+        if (is_odd(j))
+          restrict_row(j);
+    for (int r = 0; r < n; ++r)
+      restrict_values(iy, r);
+  }
+
+  // Residual, handed on from dropped pixels to kept ones: in odd rows from centres to edges, in even rows from both
+  // in the odd rows beside, then from edges to corners. `e` of odd rows ends as what they give to even rows.
+  void
+  CellMultigrid::Cycle::restrict_values(const int iy, const int r)
+  {
+    const float *kx = coefficients(m.kx, iy), *ky = coefficients(m.ky, iy), *above = coefficients(m.ky, iy + 1),
+                *weight = coefficients(coarsening.weight, iy);
+    float *d = row(e, iy, r), *w = &spare[1];
+    row_kernels::from_neighbours(l.nx, d, row(result, iy, r), row(result, iy - 1, r), row(result, iy + 1, r), kx, ky,
+                                 above, colour(iy, 0));
+    add_border_residual(iy, r, d);
+    if (!is_odd(iy))
+      row_kernels::add_from_column(l.nx, d, is_odd(iy - 1) ? row(e, iy - 1, r) : &zero[1],
+                                   is_odd(iy + 1) ? row(e, iy + 1, r) : &zero[1], ky, above);
+    row_kernels::scale(l.nx, w, d, weight, parity[1].data());
+    close_row(w, l);
+    row_kernels::add_from_row(l.nx, d, w, kx);
+    for (int c = coarsening.first_site[iy]; c < coarsening.first_site[iy + 1]; ++c)
+      coarse_rhs[static_cast<std::size_t>(c) * n + r] = d[coarsening.site[c]];
+    if (is_odd(iy))
+      {
+        row_kernels::scale(l.nx, d, d, weight, parity[0].data());
+        row_kernels::add(l.nx, d, w);
+      }
+  }
+
+  void
+  CellMultigrid::Cycle::correct_row(const int row_number)
+  {
+    const int iy = wrapped(row_number);
+    if (reached(iy, corrected))
+      return;
+    stage[iy] = corrected;
+    if (is_odd(iy))
+      for (const int j : { iy - 1, iy + 1 })
+        correct_row(j);
+    const float *kx = coefficients(m.kx, iy), *weight = coefficients(coarsening.weight, iy);
+    for (int r = 0; r < n; ++r)
+      {
+        float *c = row(e, iy, r);
+        std::fill(c, c + l.nx, 0.f);
+        for (int s = coarsening.first_site[iy]; s < coarsening.first_site[iy + 1]; ++s)
+          c[coarsening.site[s]] = coarse_x[static_cast<std::size_t>(s) * n + r];
+        if (is_odd(iy))
+          row_kernels::interpolate_in_column(l.nx, c, row(e, iy - 1, r), row(e, iy + 1, r), coefficients(m.ky, iy),
+                                             coefficients(m.ky, iy + 1), weight);
+        close_row(c, l);
+        row_kernels::interpolate_in_row(l.nx, c, kx, weight, parity[1].data(), &spare[1]);
+        float *x = row(result, iy, r);
+        row_kernels::add(l.nx, x, c);
+        close_row(x, l);
+      }
+  }
+
+  void
+  CellMultigrid::Cycle::relax_again(const int row_number)
+  {
+    const int iy = wrapped(row_number);
+    if (reached(iy, relaxed_again))
+      return;
+    for (const int j : { iy - 1, iy, iy + 1 })
+      correct_row(j);
+    if ((iy == 0 || iy == l.ny - 1) && !reached(l.ny - 1 - iy, relaxed_again))
+      remember_end_rows();
+    stage[iy] = relaxed_again;
+    relax(iy, 1);
+  }
+
+  void
+  CellMultigrid::Cycle::finish_row(const int iy, const std::vector<double> &residual)
+  {
+    for (const int j : { iy - 1, iy, iy + 1 })
+      relax_again(j);
+    if (iy == 0)
+      remember_end_rows();
+    relax(iy, 0);
+    for (int r = 0; r < n; ++r)
+      product[r] += row_kernels::dot(l.nx, &residual[l.row(n, iy, r)], row(result, iy, r));
+  }
+
+  void
+  CellMultigrid::Cycle::run(const std::vector<double> &residual)
+  {
+    std::fill(stage.begin(), stage.end(), untouched);
+    for (std::vector<float> *values : { &first_row, &last_row })
+      std::fill(values->begin(), values->end(), 0.f);
+    for (int iy = 0; iy < l.ny; ++iy)
+      restrict_row(iy);
+    m.coarse->cycle(n, coarse_rhs.data(), coarse_x.data());
+    product = {};
+    for (int iy = 0; iy < l.ny; ++iy)
+      finish_row(iy, residual);
+  }
+
+  CellMultigrid::CellMultigrid(const CellConductances &conductances)
+      : k(conductances), coarsening(std::make_unique<CellCoarsening>(conductances)),
+        coarse(std::make_unique<GraphMultigrid>(coarsening->coarse_matrix(), 2))
+  {
+    const CellLayout &l = k.layout;
+    kx.assign(l.size(1), 0.f);
+    ky.assign(l.size(1) + l.stride(), 0.f);
+    inverse.assign(l.size(1), 0.f);
+    for (int iy = 0; iy < l.ny; ++iy)
+      {
+        std::copy_n(k.x_row(iy), l.nx + 1, &kx[l.row(1, iy, 0)]);
+        std::copy_n(k.y_row(iy), l.nx, &ky[l.row(1, iy, 0)]);
+        for (int ix = 0; ix < l.nx; ++ix)
+          {
+            const double sum = (k.x_row(iy)[ix] + k.x_row(iy)[ix + 1]) + (k.y_row(iy)[ix] + k.y_row(iy + 1)[ix]);
+            inverse[l.row(1, iy, 0) + ix] = sum > 0 ? static_cast<float>(1 / sum) : 0.f;
+          }
+      }
+    std::copy_n(k.y_row(l.ny), l.nx, &ky[l.row(1, l.ny, 0)]);
   }
 
   CellMultigrid::~CellMultigrid() = default;
 
-  void
-  CellMultigrid::cycle(const std::size_t l, const Eigen::VectorXd &rhs, Eigen::VectorXd &x) const
-  {
-    if (l + 1 == levels.size())
-      {
-        x = coarsest->ldlt.solve(rhs);
-        return;
-      }
-    const Level &level = *levels[l];
-    const int    n     = static_cast<int>(rhs.size());
-    x                  = Eigen::VectorXd::Zero(n);
-    for (int i = 0; i < n; ++i)
-      level.relax(i, rhs, x);
-    const Eigen::VectorXd residual        = rhs - level.matrix * x;
-    const Eigen::VectorXd coarse_residual = level.prolongation.transpose() * residual;
-    Eigen::VectorXd       coarse_x;
-    cycle(l + 1, coarse_residual, coarse_x);
-    x += level.prolongation * coarse_x;
-    for (int i = n - 1; i >= 0; --i)
-      level.relax(i, rhs, x);
-  }
-
-  Eigen::VectorXd
-  CellMultigrid::precondition(const Eigen::VectorXd &residual) const
-  {
-    Eigen::VectorXd x;
-    cycle(0, residual, x);
-    return x;
-  }
-
   unsigned
-  CellMultigrid::solve(const Eigen::VectorXd &rhs, Eigen::VectorXd &solution, const double tolerance,
+  CellMultigrid::solve(const int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, 4> &goal,
                        const unsigned max_iterations) const
   {
-    const Matrix &matrix     = levels.front()->matrix;
-    solution                 = Eigen::VectorXd::Zero(rhs.size());
-    Eigen::VectorXd residual = rhs, direction = precondition(rhs);
-    double          energy = residual.dot(direction);
-    const double    goal   = tolerance * tolerance * energy;
-    if (!(energy > 0))
-      return 1; // nothing drives the flow
+    const CellLayout &l = k.layout;
+    Cycle             cycle(*this, n);
+    std::copy(rhs.begin(), rhs.end(), cycle.rhs.begin());
+    std::vector<double>       direction(l.size(n), 0.);
+    const std::vector<double> zero(l.stride(), 0.);
+    const auto                direction_row = [&](const int iy, const int r) {
+      const int w = CellLayout::wrapped(iy, l.ny, l.periodic);
+      return w < 0 ? &zero[1] : &direction[l.row(n, w, r)];
+    };
+    std::array<double, 4> product{};
+    std::vector<char>     directed(l.ny);
+    const auto            direct = [&](const int row_number) {
+      const int iy = CellLayout::wrapped(row_number, l.ny, l.periodic);
+      if (iy < 0 || directed[iy])
+        return;
+      directed[iy] = 1;
+      for (int r = 0; r < n; ++r)
+        {
+          double *d = &direction[l.row(n, iy, r)];
+          row_kernels::direct(l.nx, d, &cycle.result[l.row(n, iy, r)],
+                              product[r] > 0 ? cycle.product[r] / product[r] : 0.);
+          close_row(d, l);
+        }
+    };
     for (unsigned iteration = 1; iteration <= max_iterations; ++iteration)
       {
-        const Eigen::VectorXd image = matrix * direction;
-        const double          alpha = energy / direction.dot(image);
-        solution += alpha * direction;
-        residual -= alpha * image;
-        const Eigen::VectorXd z    = precondition(residual);
-        const double          next = residual.dot(z);
-        if (!std::isfinite(next))
-          return 0;
-        if (next <= goal)
+        cycle.run(rhs);
+        std::fill(directed.begin(), directed.end(), 0);
+        std::array<double, 4> energy{}, square{};
+        for (int iy = 0; iy < l.ny; ++iy)
+          {
+            for (const int j : { iy - 1, iy, iy + 1 })
+              direct(j);
+            for (int r = 0; r < n; ++r)
+              energy[r] += row_kernels::energy(l.nx, direction_row(iy, r), direction_row(iy - 1, r),
+                                               direction_row(iy + 1, r), k.x_row(iy), k.y_row(iy), k.y_row(iy + 1));
+          }
+        product = cycle.product;
+        for (int iy = 0; iy < l.ny; ++iy)
+          for (int r = 0; r < n; ++r)
+            {
+              const double step = product[r] / energy[r]; // not a number if nothing drives the flow
+              square[r]
+                  += row_kernels::step(l.nx, &x[l.row(n, iy, r)], &rhs[l.row(n, iy, r)], &cycle.rhs[l.row(n, iy, r)],
+                                       direction_row(iy, r), direction_row(iy - 1, r), direction_row(iy + 1, r),
+                                       k.x_row(iy), k.y_row(iy), k.y_row(iy + 1), std::isfinite(step) ? step : 0.);
+            }
+        bool done = true;
+        for (int r = 0; r < n; ++r)
+          done = done && std::sqrt(square[r]) <= goal[r];
+        if (done)
           return iteration;
-        direction = z + (next / energy) * direction;
-        energy    = next;
       }
-    return 0;
+    return max_iterations + 1;
   }
 } // namespace tribodraw

@@ -1,6 +1,7 @@
 #ifndef tribodraw_flow_factors_cell_flow_h
 #define tribodraw_flow_factors_cell_flow_h
 
+#include <tribodraw/flow_factors/cell_conductances.h>
 #include <tribodraw/flow_factors/cell_gap.h>
 #include <tribodraw/flow_factors/cell_grid.h>
 #include <tribodraw/flow_factors/cell_solver.h>
@@ -13,7 +14,7 @@
 namespace tribodraw
 {
   /// Pressures and fluxes in one gap: cell-centred finite volumes with a two-point flux over every face (Appendix A),
-  /// factorised once for all driving directions.
+  /// set up once for all driving directions.
   ///
   /// Everything is dimensionless: gaps over the mean gap, pressure such that the mean gradient is one per length. Two
   /// problems are solved for the fluctuation p of the pressure:
@@ -24,9 +25,12 @@ namespace tribodraw
   class CellFlow
   {
   public:
+    /// Keeps references to @p grid and @p gap.
     /// @param driven_axis axis whose two boundaries have fixed pressures (ignored on a periodic grid).
+    /// @param tolerance largest residual and largest difference of the fluxes through sections (multigrid; the direct
+    /// solution goes on to round-off).
     CellFlow(const CellGrid &grid, const CellGap &gap, CellDiscretisation discretisation, int driven_axis,
-             CellSolverChoice choice = CellSolverChoice::automatic);
+             CellSolverChoice choice = CellSolverChoice::automatic, double tolerance = 1e-10);
     ~CellFlow();
     CellFlow(const CellFlow &)            = delete;
     CellFlow &operator=(const CellFlow &) = delete;
@@ -37,24 +41,32 @@ namespace tribodraw
       std::array<std::size_t, 2> first, last;
     };
 
+    /// What drives the flow: a pressure gradient along an axis, or sliding.
+    struct Drive
+    {
+      int  axis;
+      bool shear;
+    };
+
     struct Solution
     {
-      std::vector<double> flux;       ///< over each face, in positive direction of its axis, per unit of mean gap
-      double              residual;   ///< divergence of the flux relative to what drives it (Euclidean norms)
-      unsigned            iterations; ///< of conjugate gradients, or of iterative refinement
+      double   residual   = 0; ///< divergence of the flux relative to what drives it (Euclidean norms)
+      unsigned iterations = 0; ///< of conjugate gradients, or of iterative refinement
       /// Fluctuation of the pressure in each cell, 0 in cells without flow. Its gradient is the deviation from the mean
       /// gradient; lengths in mm. Free up to a constant in each region of a periodic cell.
       std::vector<double> pressure;
-      /// The same fluxes by cell: over the upper face of each cell, by axis (periodic: the last face leads to the first
-      /// cell; else there is a flux over the edge of the map only along the driven axis).
+      /// Flux per unit of mean gap over the upper face of each cell in positive direction, by axis (periodic: the last
+      /// face leads to the first cell; else there is a flux over the edge of the map only along the driven axis).
       std::array<std::vector<double>, 2> upper_flux;
+      /// Flux over the lower edge of the map along the driven axis; empty on a periodic grid.
+      std::vector<double> inflow;
     };
 
     /// No open way through the cell in any direction of driving: all fluxes are zero.
     bool
     blocked() const
     {
-      return links.empty();
+      return solver == nullptr;
     }
     /// An open way leads through the cell along @p axis. If not, the pressure flow is exactly zero.
     bool
@@ -64,6 +76,8 @@ namespace tribodraw
     }
     Solution pressure_flow(int axis) const;
     Solution shear_flow(int axis) const;
+    /// Several flows at once, which costs less than one after the other, but needs the memory for all.
+    std::vector<Solution> solve(const std::vector<Drive> &drives) const;
 
     /// Mean flux along @p axis: pixel values, each the mean of its two faces.
     double mean_flux(const Solution &solution, int axis, const Window &window) const;
@@ -75,28 +89,22 @@ namespace tribodraw
     double shear_flux_by_reciprocity(const Solution &pressure_solution, int axis) const;
 
   private:
-    /// Face between two conducting pixels, or between one and the fixed pressure outside (cell number grid.size()).
-    struct Link
-    {
-      int    lower, upper;
-      int    axis;
-      double conductance; ///< h^3 * width / distance
-      double distance;    ///< between the two pressures [mm]
-      double carried;     ///< c * width [mm]
-    };
+    struct Fields;
 
     const CellGrid             &grid;
-    std::vector<Link>           links;
-    std::vector<int>            unknown; // per cell, -1: none; last for the outside
-    std::size_t                 n_unknowns = 0;
+    const CellGap              &gap;
+    const int                   driven_axis;
+    const double                tolerance;
+    CellConductances            k; ///< h^3 * width / distance of each face
     std::array<bool, 2>         conducting{};
     std::unique_ptr<CellSolver> solver;
 
-    void                add_links(const CellGap &gap, const std::vector<int> &region, CellDiscretisation discretisation,
-                                  int driven_axis);
-    CellSolver::System  number_unknowns(const std::vector<int> &region);
-    std::vector<double> drive(int axis, bool shear) const;
-    Solution            solve(const std::vector<double> &drive) const;
+    void   set_conductances(const std::vector<int> &region, CellDiscretisation discretisation);
+    void   add_drive(const Drive &drive, int axis, int row, double *flux) const;
+    void   evaluate(Fields &fields) const;
+    void   solve_group(const Drive *drives, int n, Solution *solutions) const;
+    double imbalance(const Solution &solution, const Drive &drive) const;
+    std::vector<double> flux_through_sections(const Solution &solution, int axis) const;
   };
 } // namespace tribodraw
 

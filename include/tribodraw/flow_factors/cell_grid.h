@@ -7,26 +7,17 @@
 
 namespace tribodraw
 {
-  /// Cells and faces of the finite-volume mesh of a height map: what a local Reynolds cell needs to know of
-  /// deal.II's Triangulation<2> and DoFHandler with FE_DGQ(0). It is extracted once per map; a separation only changes
-  /// the coefficients of the faces. One cell is one pixel; cells are numbered like HeightMap::z, iy * nx + ix.
+  /// The finite-volume mesh of a height map: one cell per pixel, numbered like HeightMap::z, iy * nx + ix. These are the
+  /// cells of deal.II's subdivided_hyper_rectangle and the degrees of freedom of FE_DGQ(0) on it; the neighbour
+  /// relation follows from the numbers, so that no mesh needs to be kept (some hundred bytes a cell). A test compares the
+  /// solution with that of the system assembled on the deal.II mesh.
   struct CellGrid
   {
-    /// Face between two cells; `upper` lies beyond the face in positive direction of the axis. On a periodic grid
-    /// the faces at the end lead back to the beginning, and there upper < lower.
-    struct Face
-    {
-      int lower, upper;
-    };
-
     std::size_t nx = 0, ny = 0;
     double      dx = 0, dy = 0; ///< [mm]
     bool        periodic = false;
-    /// Inner faces, by the axis of their normal.
-    std::array<std::vector<Face>, 2> faces;
     /// Cells at the lower and at the upper boundary of each axis; empty on a periodic grid.
     std::array<std::vector<int>, 2> lower_boundary, upper_boundary;
-
     std::size_t
     size() const
     {
@@ -56,8 +47,7 @@ namespace tribodraw
     }
   };
 
-  /// Make the mesh with deal.II and take its neighbour relation. Throws InputError for fewer than 3 x 3 pixels,
-  /// or more than 2^31 - 1.
+  /// Throws InputError for fewer than 3 x 3 pixels, 2^31 - 1 pixels or more, or no pixel size.
   CellGrid make_cell_grid(std::size_t nx, std::size_t ny, double dx, double dy, bool periodic);
 } // namespace tribodraw
 

@@ -1,52 +1,44 @@
 #ifndef tribodraw_flow_factors_cell_multigrid_h
 #define tribodraw_flow_factors_cell_multigrid_h
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
+#include <tribodraw/flow_factors/cell_conductances.h>
 
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace tribodraw
 {
-  /// Conjugate gradients with one multigrid V-cycle as preconditioner, for systems on the pixels of a map in which
-  /// only neighbours (corners included) are coupled.
+  class CellCoarsening;
+  class GraphMultigrid;
+
+  /// Conjugate gradients in double precision for the five-point system of a local Reynolds cell, preconditioned by one
+  /// multigrid V-cycle in single precision. Several right-hand sides are solved at once.
   ///
-  /// Every other pixel row and column is kept on the next level. The interpolation solves the equations of
-  /// the dropped pixels with the coefficients of the matrix, so that it follows the jumps of h^3, and coarse matrices
-  /// are Galerkin products (Alcouffe, Brandt, Dendy, Painter 1981; Dendy 1982). Smoother: Gauss-Seidel, forward before
-  /// and backward after the coarse correction.
+  /// The finest level works on the arrays of the map: red-black Gauss-Seidel, and the interpolation of CellCoarsening,
+  /// which follows the jumps of h^3. All coarser levels are those of GraphMultigrid.
   class CellMultigrid
   {
   public:
-    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+    static constexpr int min_width = 8; ///< least number of pixels along each axis
 
-    /// Positions of the unknowns on a grid of nx x ny pixels.
-    struct Layout
-    {
-      int              nx = 0, ny = 0;
-      bool             periodic = false;
-      std::vector<int> x, y;
-    };
-
-    /// @param matrix symmetric, positive definite, off-diagonals not positive.
-    CellMultigrid(Matrix matrix, Layout layout);
+    explicit CellMultigrid(const CellConductances &conductances);
     ~CellMultigrid();
 
-    /// Solve to a relative reduction @p tolerance of the energy norm of the error, as estimated by the preconditioner.
-    /// Returns the number of iterations, 0 if @p max_iterations were
-    /// not enough.
-    unsigned solve(const Eigen::VectorXd &rhs, Eigen::VectorXd &solution, double tolerance,
+    /// Add the solutions of @p n right-hand sides (1, 2 or 4) to @p x; @p rhs becomes the residual. Stops when the norm
+    /// of each residual is at most its @p goal. Returns the number of iterations, max_iterations + 1 if they were not
+    /// enough.
+    unsigned solve(int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, 4> &goal,
                    unsigned max_iterations) const;
 
   private:
-    struct Level;
-    struct Coarsest;
-    std::vector<std::unique_ptr<Level>> levels;
-    std::unique_ptr<Coarsest>           coarsest;
+    class Cycle;
 
-    void            cycle(std::size_t level, const Eigen::VectorXd &rhs, Eigen::VectorXd &x) const;
-    Eigen::VectorXd precondition(const Eigen::VectorXd &residual) const;
+    const CellConductances          &k;
+    std::unique_ptr<CellCoarsening> coarsening;
+    std::unique_ptr<GraphMultigrid> coarse;
+    // Single precision copies, in the layout of the conductances: conductances and inverse of their sum
+    std::vector<float> kx, ky, inverse;
   };
 } // namespace tribodraw
 

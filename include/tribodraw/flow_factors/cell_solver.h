@@ -1,49 +1,33 @@
 #ifndef tribodraw_flow_factors_cell_solver_h
 #define tribodraw_flow_factors_cell_solver_h
 
-#include <tribodraw/flow_factors/cell_multigrid.h>
+#include <tribodraw/flow_factors/cell_conductances.h>
 
-#include <Eigen/Core>
-
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace tribodraw
 {
+  class CellMultigrid;
+
   /// Which linear solver a local Reynolds cell uses.
   enum class CellSolverChoice
   {
-    automatic, ///< multigrid for large cells with little contact, else direct
+    automatic, ///< direct for small cells, else multigrid
     direct,    ///< sparse LDL^T of the open pixels
-    multigrid  ///< conjugate gradients with multigrid; direct if it does not converge
+    multigrid  ///< conjugate gradients with multigrid; direct if they do not converge
   };
 
   /// Solver for the pressures in one gap: made once, used for several right-hand sides.
   class CellSolver
   {
   public:
-    struct Coupling
-    {
-      int    a, b; ///< unknowns; b < 0: fixed pressure
-      double conductance;
-    };
+    static constexpr int max_rhs = 4;
 
-    struct System
-    {
-      CellMultigrid::Layout layout; ///< position of every unknown
-      std::vector<Coupling> couplings;
-      /// One unknown of each region whose pressure is nowhere fixed; it is set to zero. The
-      /// right-hand side of such a region must sum to zero.
-      std::vector<int> floating;
-
-      std::size_t
-      size() const
-      {
-        return layout.x.size();
-      }
-    };
-
-    CellSolver(System system, CellSolverChoice choice);
+    /// @param floating one pixel, iy * nx + ix, of each region whose pressure is nowhere fixed. The right-hand side of
+    /// such a region must sum to zero; its solution is free up to a constant.
+    CellSolver(const CellConductances &conductances, std::vector<int> floating, CellSolverChoice choice);
     ~CellSolver();
 
     bool
@@ -51,13 +35,17 @@ namespace tribodraw
     {
       return multigrid == nullptr;
     }
-    /// Iterations of conjugate gradients are added to @p iterations.
-    Eigen::VectorXd solve(const Eigen::VectorXd &rhs, unsigned &iterations);
+    /// Solve for @p n = 1, 2 or 4 right-hand sides in the layout of the conductances and add to @p x, whose values
+    /// must be 0 where nothing flows.
+    /// @param rhs is overwritten. @param goal norms of the residual to reach (multigrid).
+    /// @return iterations of conjugate gradients
+    unsigned solve(int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, max_rhs> &goal);
 
   private:
     struct Factors;
 
-    System                         system;
+    const CellConductances        &k;
+    std::vector<int>               floating;
     std::unique_ptr<CellMultigrid> multigrid;
     std::unique_ptr<Factors>       factors;
 
