@@ -46,7 +46,8 @@ namespace tribodraw
     /// Where the vectorised iteration did not converge: the slow way, which starts anew.
     bool
     repair(const SheetMaterial &material, const PointOptions &options, const MohrStrainPack &elastic,
-           const PlasticState *old_states, const unsigned n, PackUpdate::Result &r, MohrStrainPack &plastic_flow)
+           const PlasticState *old_states, const unsigned n, PackUpdate::Result &r, MohrStrainPack &plastic_flow,
+           PointBatch &batch)
     {
       for (unsigned i = 0; i < n; ++i)
         if (r.failed[i])
@@ -55,6 +56,8 @@ namespace tribodraw
             PlasticState  next;
             StressUpdate  u = material.update(trial + old_states[i].plastic_strain, old_states[i],
                                               options.time_increment, next, options.loading_tangent);
+            ++batch.slow;
+            batch.sub_steps += u.sub_steps;
             if (!u.converged)
               return false;
             if (options.elastic_blend > 0 && (u.plastic || options.loading_tangent))
@@ -104,7 +107,7 @@ namespace tribodraw
         flow.m = pack::select(r.plastic, elastic.m - cm * r.stress.m, Pack(0.));
         flow.a = pack::select(r.plastic, elastic.a - ca * r.stress.a, Pack(0.));
         flow.b = pack::select(r.plastic, elastic.b - ca * r.stress.b, Pack(0.));
-        if (pack::any(r.failed) && !repair(material, options, elastic, old_states, n, r, flow))
+        if (pack::any(r.failed) && !repair(material, options, elastic, old_states, n, r, flow, batch))
           {
             good = false;
             return;
@@ -150,6 +153,7 @@ namespace tribodraw
     if (!(options.time_increment > 0))
       return false;
     const PackUpdate update(material, options);
+    batch.slow = batch.sub_steps = 0;
     // Fill up with copies of the last point.
     for (unsigned i = batch.n; i % pack::lanes != 0; ++i)
       for (auto &row : batch.C)

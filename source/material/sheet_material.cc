@@ -86,10 +86,11 @@ namespace tribodraw
 
     const ReturnMapping         mapping(D, D_inverse, *yield_locus, *hardening_law);
     const ReturnMapping::Result flow = mapping.solve({ elastic_trial, old_state.eps_p, time_increment });
-    result.converged                 = flow.converged;
     if (!flow.converged)
       {
-        new_state = old_state;
+        result.converged = update_in_parts(strain, old_state, time_increment, new_state, result);
+        if (!result.converged)
+          new_state = old_state;
         return result;
       }
     result.plastic         = true;
@@ -106,6 +107,63 @@ namespace tribodraw
     new_state.eps_p              = old_state.eps_p + flow.flow;
     new_state.plastic_strain     = plastic_strain;
     return result;
+  }
+
+  bool
+  SheetMaterial::run_parts(const Vector3 &elastic_trial, const PlasticState &old_state, const double time_increment,
+                           const unsigned n, PlasticState &new_state, StressUpdate &result) const
+  {
+    const ReturnMapping mapping(D, D_inverse, *yield_locus, *hardening_law);
+    PlasticState        state = old_state;
+    result.plastic_work       = 0;
+    for (unsigned k = 1; k <= n; ++k)
+      {
+        const Vector3 trial = old_state.plastic_strain + elastic_trial * (double(k) / n) - state.plastic_strain;
+        result.stress       = D * trial;
+        if (yield_locus->equivalent_stress(result.stress) <= hardening_law->flow_stress(state.eps_p, 0).value)
+          continue;
+        const ReturnMapping::Result part = mapping.solve({ trial, state.eps_p, time_increment / n });
+        if (!part.converged)
+          return false;
+        result.stress = part.stress;
+        result.plastic_work += part.flow * (part.flow_stress.value - 0.5 * part.flow_stress.strain_slope * part.flow);
+        state.eps_p += part.flow;
+        state.plastic_strain += trial - D_inverse * part.stress;
+      }
+    result.elastic_energy = 0.5 * result.stress.dot(D_inverse * result.stress);
+    new_state             = state;
+    return true;
+  }
+
+  bool
+  SheetMaterial::update_in_parts(const Vector3 &strain, const PlasticState &old_state, const double time_increment,
+                                 PlasticState &new_state, StressUpdate &result) const
+  {
+    const Vector3 elastic_trial = strain - old_state.plastic_strain;
+    for (unsigned n : { 4, 16, 64 })
+      {
+        if (!run_parts(elastic_trial, old_state, time_increment, n, new_state, result))
+          continue;
+        const double h = 1e-6 * elastic_trial.norm();
+        Matrix3      tangent;
+        PlasticState unused;
+        StressUpdate up, down;
+        bool         good = true;
+        for (int j = 0; j < 3 && good; ++j)
+          {
+            const Vector3 step = h * Vector3::Unit(j);
+            good               = run_parts(elastic_trial + step, old_state, time_increment, n, unused, up)
+                   && run_parts(elastic_trial - step, old_state, time_increment, n, unused, down);
+            tangent.col(j) = (up.stress - down.stress) / (2 * h);
+          }
+        if (!good)
+          continue;
+        result.tangent   = 0.5 * (tangent + tangent.transpose());
+        result.plastic   = true;
+        result.sub_steps = n;
+        return true;
+      }
+    return false;
   }
 
   double

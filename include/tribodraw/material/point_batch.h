@@ -23,6 +23,9 @@ namespace tribodraw
 
     unsigned n = 0; ///< points in use, in
 
+    unsigned slow      = 0; ///< points of the last evaluation that the vectorised iteration left to the slow way
+    unsigned sub_steps = 0; ///< sum of StressUpdate::sub_steps of these
+
     std::array<Row, 3> C; ///< in: C11, C22, C12
 
     std::array<Row, 3> stress; ///< s = dW/dC_v with C_v = (C11, C22, C12): s = (S11, S22, 2 S12)/2 [MPa]

@@ -25,6 +25,9 @@ namespace tribodraw
     double  plastic_work   = 0;     ///< of the increment, per reference volume [N/mm^2]
     double  elastic_energy = 0;     ///< stored, per reference volume [N/mm^2]
     bool    converged      = true;
+    /// Parts into which the increment had to be cut, radially from the elastic state without stress, because it could
+    /// not be solved in one; 0: in one. The tangent then comes from differences.
+    unsigned sub_steps = 0;
   };
 
   /// Elastic-plastic sheet material in plane stress: isotropic elasticity, additive plasticity in logarithmic strains,
@@ -84,6 +87,12 @@ namespace tribodraw
     static constexpr double loading_tolerance = 1e-4;
 
   private:
+    /// The last resort for an increment that does not converge at once.
+    bool update_in_parts(const Vector3 &strain, const PlasticState &old_state, double time_increment,
+                         PlasticState &new_state, StressUpdate &result) const;
+    bool run_parts(const Vector3 &elastic_trial, const PlasticState &old_state, double time_increment, unsigned n,
+                   PlasticState &new_state, StressUpdate &result) const;
+
     double                              E, nu;
     Matrix3                             D, D_inverse;
     std::shared_ptr<const YieldLocus>   yield_locus;
