@@ -80,6 +80,10 @@ namespace tribodraw
         throw InputError(
             describe_error("the pixel size is not positive and finite.", file,
                            units::format(pixel_size[0], "um") + " x " + units::format(pixel_size[1], "um")));
+      if (const double ratio = pixel_size[0] / pixel_size[1]; !(ratio <= 1000. && ratio >= 1e-3))
+        throw InputError(describe_error("a pixel is more than 1000 times as long as it is wide.", file,
+                                        units::format(pixel_size[0], "um") + " x " + units::format(pixel_size[1], "um"),
+                                        "", "Check the pixel size and its unit."));
       if (!is_positive(height_unit))
         throw InputError(describe_error("the unit of the heights is not positive and finite.", file,
                                         units::format(height_unit, "um")));
