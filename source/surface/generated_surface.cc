@@ -1,5 +1,6 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/units.h>
+#include <tribodraw/surface/map_operations.h>
 #include <tribodraw/surface/surface.h>
 #include <tribodraw/surface/texture.h>
 
@@ -26,10 +27,16 @@ namespace tribodraw
       {
         if (parameters.documentation_mode() || parameters.has_problems() || !texture)
           return;
+        if (const std::string memory = memory_problem(static_cast<double>(pixels), static_cast<double>(pixels));
+            !memory.empty())
+          {
+            parameters.problem("Pixels", memory + ".", "", "Use fewer pixels.");
+            return;
+          }
         const std::string problem = texture->problem(grid());
         if (!problem.empty())
-          parameters.problem("", problem, "at least one pixel and at most a quarter of the map",
-                             "Change `Pixels`, `Pixel size` or the correlation length.");
+          parameters.problem("", problem, "lengths between some pixels and a quarter of the map, possible moments",
+                             "Change `Pixels`, `Pixel size` or the entry named.");
       }
 
       HeightMap

@@ -91,6 +91,12 @@ namespace tribodraw
     return radius * std::cos(two_pi * v);
   }
 
+  double
+  NormalDeviates::uniform()
+  {
+    return static_cast<double>(engine() >> 11) / 9007199254740992.; // 2^53
+  }
+
   void
   normalise(std::vector<double> &values)
   {

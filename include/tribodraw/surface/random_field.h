@@ -29,6 +29,8 @@ namespace tribodraw
   public:
     explicit NormalDeviates(std::uint64_t seed);
     double operator()();
+    /// A number in [0, 1): one draw a, (a >> 11) / 2^53. Does not disturb the pairs of normal deviates.
+    double uniform();
 
   private:
     std::mt19937_64 engine;
