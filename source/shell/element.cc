@@ -1,3 +1,4 @@
+#include <tribodraw/material/pack.h>
 #include <tribodraw/material/point_batch.h>
 #include <tribodraw/shell/element.h>
 
@@ -11,10 +12,20 @@ namespace tribodraw::shell_element
   {
     using Tangents = std::array<Eigen::Vector3d, 2>; ///< phi_1, phi_2
 
-    // A point of integration feels the displacements of the nodes of the element and of one opposite node, and the
-    // directors of the element: unknowns of the element in their order, then those of the opposite node.
-    constexpr unsigned n_point_displacements = 12, n_point_dofs = n_own_dofs + 3;
-    using PointRow = std::array<double, n_point_dofs>;
+    // A point of integration feels the unknowns of the element and the displacements of one opposite node. They stand
+    // in this order in a row, filled up with zeros to whole packs.
+    constexpr unsigned n_own_packs = 4, n_point_packs = n_own_packs + 1, opposite_column = 4 * n_own_packs;
+    static_assert(4 * n_own_packs >= n_own_dofs);
+    struct alignas(32) PointRow : std::array<double, 4 * n_point_packs>
+    {
+      TRIBODRAW_INLINE Pack
+      pack(const unsigned q) const
+      {
+        Pack result;
+        __builtin_memcpy(&result, data() + 4 * q, sizeof(Pack));
+        return result;
+      }
+    };
 
     Tangents
     tangents(const Eigen::Matrix<double, n_nodes, 2> &gradient, const Eigen::Vector3d &x0, const Eigen::Vector3d &x1,
@@ -57,11 +68,13 @@ namespace tribodraw::shell_element
     {
       std::array<double, 6> value{};
 
-      std::array<double, 3>
-      times(const double x, const double y, const double z) const
+      /// Add the product with a vector, four vectors at once.
+      TRIBODRAW_INLINE void
+      add_product(const Pack &x, const Pack &y, const Pack &z, std::array<Pack, 3> &result) const
       {
-        return { value[0] * x + value[3] * y + value[4] * z, value[3] * x + value[1] * y + value[5] * z,
-                 value[4] * x + value[5] * y + value[2] * z };
+        result[0] = result[0] + value[0] * x + value[3] * y + value[4] * z;
+        result[1] = result[1] + value[3] * x + value[1] * y + value[5] * z;
+        result[2] = result[2] + value[4] * x + value[5] * y + value[2] * z;
       }
     };
 
@@ -161,7 +174,7 @@ namespace tribodraw::shell_element
           {
             derivative.metric[r][first + c] += side.share * other[r][c];
             derivative.metric[r][second + c] += side.share * other[r][3 + c];
-            derivative.metric[r][n_own_dofs + c] = side.share * other[r][6 + c];
+            derivative.metric[r][opposite_column + c] = side.share * other[r][6 + c];
           }
     }
 
@@ -188,51 +201,59 @@ namespace tribodraw::shell_element
         }
     }
 
-    /// Add a multiple of @p columns, those of the element and of the opposite node, to a row of the stiffness.
-    void
-    add_row(const double factor, const PointRow &columns, double *own, double *opposite)
-    {
-      for (unsigned j = 0; j < n_own_dofs; ++j)
-        own[j] += factor * columns[j];
-      for (unsigned j = 0; j < 3; ++j)
-        opposite[j] += factor * columns[n_own_dofs + j];
-    }
+    /// B^T D B of the points of an element: the part of its own unknowns, summed over the points. Only the packs on and
+    /// right of the diagonal are in use.
+    using OwnStiffness = std::array<std::array<Pack, n_own_packs>, n_own_dofs>;
 
-    /// B^T D B of one point.
-    void
+    /// Add B^T D B of point @p k to @p own and write the part of its opposite node to @p K.
+    TRIBODRAW_INLINE inline void
     add_material_stiffness(const PointDerivative &B, const SectionResponse &section, const unsigned k,
-                           const bool shared, TangentMatrix &K)
+                           const bool shared, OwnStiffness &own, TangentMatrix &K)
     {
-      std::array<PointRow, 3> force, moment; // derivatives
-      for (unsigned j = 0; j < n_point_dofs; ++j)
+      std::array<std::array<Pack, 3>, n_point_packs> force, moment; // derivatives
+      for (unsigned q = 0; q < n_point_packs; ++q)
         {
-          const auto NC = section.membrane.times(B.metric[0][j], B.metric[1][j], B.metric[2][j]);
-          const auto NK = section.coupling.times(B.curvature[0][j], B.curvature[1][j], B.curvature[2][j]);
-          const auto MC = section.coupling.times(B.metric[0][j], B.metric[1][j], B.metric[2][j]);
-          const auto MK = section.bending.times(B.curvature[0][j], B.curvature[1][j], B.curvature[2][j]);
-          for (unsigned r = 0; r < 3; ++r)
-            {
-              force[r][j]  = NC[r] + NK[r];
-              moment[r][j] = MC[r] + MK[r];
-            }
+          const Pack m0 = B.metric[0].pack(q), m1 = B.metric[1].pack(q), m2 = B.metric[2].pack(q);
+          const Pack c0 = B.curvature[0].pack(q), c1 = B.curvature[1].pack(q), c2 = B.curvature[2].pack(q);
+          force[q] = moment[q] = { Pack(0.), Pack(0.), Pack(0.) };
+          section.membrane.add_product(m0, m1, m2, force[q]);
+          section.coupling.add_product(c0, c1, c2, force[q]);
+          section.coupling.add_product(m0, m1, m2, moment[q]);
+          section.bending.add_product(c0, c1, c2, moment[q]);
         }
-      const unsigned opposite = opposite_dof(k, 0);
       for (unsigned i = 0; i < n_own_dofs; ++i)
         {
-          double *own = K.data() + i * n_dofs;
-          if (i < director_dof(0, 0))
-            for (unsigned r = 0; r < 3; ++r)
-              add_row(B.metric[r][i], force[r], own, own + opposite);
-          for (unsigned r = 0; r < 3; ++r)
-            add_row(B.curvature[r][i], moment[r], own, own + opposite);
+          const double m0 = B.metric[0][i], m1 = B.metric[1][i], m2 = B.metric[2][i];
+          const double c0 = B.curvature[0][i], c1 = B.curvature[1][i], c2 = B.curvature[2][i];
+          for (unsigned q = i / 4; q < n_own_packs; ++q)
+            own[i][q] = own[i][q] + m0 * force[q][0] + m1 * force[q][1] + m2 * force[q][2] + c0 * moment[q][0]
+                        + c1 * moment[q][1] + c2 * moment[q][2];
+          if (!shared)
+            continue;
+          constexpr unsigned q    = n_own_packs;
+          const Pack         pack = m0 * force[q][0] + m1 * force[q][1] + m2 * force[q][2] + c0 * moment[q][0]
+                            + c1 * moment[q][1] + c2 * moment[q][2];
+          for (unsigned c = 0; c < 3; ++c)
+            K(i, opposite_dof(k, c)) = K(opposite_dof(k, c), i) = pack[c];
         }
       if (shared)
         for (unsigned c = 0; c < 3; ++c)
           {
-            double *own = K.data() + (opposite + c) * n_dofs;
-            for (unsigned r = 0; r < 3; ++r)
-              add_row(B.metric[r][n_own_dofs + c], force[r], own, own + opposite);
+            const auto &column = force[n_own_packs];
+            const Pack  pack   = B.metric[0][opposite_column + c] * column[0]
+                              + B.metric[1][opposite_column + c] * column[1]
+                              + B.metric[2][opposite_column + c] * column[2];
+            for (unsigned d = 0; d < 3; ++d)
+              K(opposite_dof(k, c), opposite_dof(k, d)) = pack[d];
           }
+    }
+
+    void
+    write_own_stiffness(const OwnStiffness &own, TangentMatrix &K)
+    {
+      for (unsigned i = 0; i < n_own_dofs; ++i)
+        for (unsigned j = i; j < n_own_dofs; ++j)
+          K(i, j) = K(j, i) = own[i][j / 4][j % 4];
     }
 
     /// Tensor 2 N of the second variation of the metric under the forces N conjugate to (C_11, C_22, C_12).
@@ -384,43 +405,48 @@ namespace tribodraw::shell_element
     add_to_summary(batch, section, reference.area, summary);
 
     force.setZero();
-    if (options.tangent)
-      tangent.setZero();
-    const auto                            own        = metric_derivative(reference.gradient, phi);
-    Vector3                               own_force  = Vector3::Zero();
-    Eigen::Matrix<double, n_covariant, 1> conjugated = Eigen::Matrix<double, n_covariant, 1>::Zero(); // to b
+    const auto                              own        = metric_derivative(reference.gradient, phi);
+    Vector3                                 own_force  = Vector3::Zero();
+    Eigen::Matrix<double, n_covariant, 1>   conjugated = Eigen::Matrix<double, n_covariant, 1>::Zero(); // to b
+    std::array<PointDerivative, n_in_plane> B;
+    std::array<SectionResponse, n_in_plane> response;
     for (unsigned k = 0; k < n_in_plane; ++k)
       {
-        const Side           &side = reference.side[k];
-        const SectionResponse response
-            = integrate_thickness(batch, static_cast<unsigned>(k * section.rule->point.size()), section,
-                                  reference.area / n_in_plane, options.tangent);
-        PointDerivative B;
-        set_metric_derivative(side, k, own, kinematics.neighbour[k], B);
-        set_curvature_derivative(reference, k, nodes, kinematics.turning, B);
+        const Side &side = reference.side[k];
+        response[k]      = integrate_thickness(batch, static_cast<unsigned>(k * section.rule->point.size()), section,
+                                               reference.area / n_in_plane, options.tangent);
+        set_metric_derivative(side, k, own, kinematics.neighbour[k], B[k]);
+        set_curvature_derivative(reference, k, nodes, kinematics.turning, B[k]);
         for (unsigned r = 0; r < 3; ++r)
           {
             for (unsigned j = 0; j < n_own_dofs; ++j)
-              force[j] += response.force[r] * B.metric[r][j] + response.moment[r] * B.curvature[r][j];
+              force[j] += response[k].force[r] * B[k].metric[r][j] + response[k].moment[r] * B[k].curvature[r][j];
             for (unsigned c = 0; c < 3; ++c)
-              force[opposite_dof(k, c)] += response.force[r] * B.metric[r][n_own_dofs + c];
+              force[opposite_dof(k, c)] += response[k].force[r] * B[k].metric[r][opposite_column + c];
           }
-        if (!options.tangent)
-          continue;
-        add_material_stiffness(B, response, k, side.share != 0, tangent);
-        own_force += side.own.transpose() * response.force;
-        conjugated += reference.bending[k].transpose() * response.moment;
-        if (side.share != 0)
-          add_membrane_geometry(side.gradient, membrane_tensor(side.share * response.force, options.tension_only),
-                                { displacement_dof(k, 0), displacement_dof((k + 1) % n_nodes, 0), opposite_dof(k, 0) },
-                                tangent);
+        own_force += side.own.transpose() * response[k].force;
+        conjugated += reference.bending[k].transpose() * response[k].moment;
       }
-    if (options.tangent)
-      {
-        add_membrane_geometry(reference.gradient, membrane_tensor(own_force, options.tension_only),
-                              { displacement_dof(0, 0), displacement_dof(1, 0), displacement_dof(2, 0) }, tangent);
-        add_director_geometry(reference, nodes, kinematics.b, conjugated, tangent);
-      }
+    if (!options.tangent)
+      return summary;
+
+    tangent.setZero();
+    OwnStiffness own_stiffness;
+    pack::vectorised([&]() TRIBODRAW_INLINE {
+      for (auto &row : own_stiffness)
+        row.fill(Pack(0.));
+      for (unsigned k = 0; k < n_in_plane; ++k)
+        add_material_stiffness(B[k], response[k], k, reference.side[k].share != 0, own_stiffness, tangent);
+    });
+    write_own_stiffness(own_stiffness, tangent);
+    for (unsigned k = 0; k < n_in_plane; ++k)
+      if (const Side &side = reference.side[k]; side.share != 0)
+        add_membrane_geometry(side.gradient, membrane_tensor(side.share * response[k].force, options.tension_only),
+                              { displacement_dof(k, 0), displacement_dof((k + 1) % n_nodes, 0), opposite_dof(k, 0) },
+                              tangent);
+    add_membrane_geometry(reference.gradient, membrane_tensor(own_force, options.tension_only),
+                          { displacement_dof(0, 0), displacement_dof(1, 0), displacement_dof(2, 0) }, tangent);
+    add_director_geometry(reference, nodes, kinematics.b, conjugated, tangent);
     return summary;
   }
 } // namespace tribodraw::shell_element

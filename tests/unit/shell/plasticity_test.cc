@@ -95,10 +95,11 @@ TEST(PlasticStrip, TensionReproducesTheHardeningCurve)
               EXPECT_NEAR(strip.shell.node_thickness()[node], thickness, 1e-9);
               EXPECT_NEAR(strip.shell.node_eps_p()[node], eps_p, 1e-9);
             }
-          // Trapezoidal rule over the increment of plastic strain, from flow stress to flow stress (an elastic step
-          // ends below it).
-          plastic_work
-              += 0.5 * (law.flow_stress(last_eps_p, 1).value + stress) * (eps_p - last_eps_p) * length * width * h;
+          // Flow stress in the middle of the increment, from its value and slope at the end, at least the initial one.
+          const auto end = law.flow_stress(eps_p, 1);
+          plastic_work += std::max(law.flow_stress(last_eps_p, 1).value,
+                                   end.value - 0.5 * end.strain_slope * (eps_p - last_eps_p))
+                          * (eps_p - last_eps_p) * length * width * h;
           last_eps_p                  = eps_p;
           const double elastic_energy = 0.5 * stress * stress / E * length * width * h;
           const double accuracy       = 1e-7 * (elastic_energy + plastic_work);
