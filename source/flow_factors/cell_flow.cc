@@ -216,7 +216,6 @@ namespace tribodraw
       }
   }
 
-  // Difference of the fluxes through sections, relative to the flux of a pressure flow if that is not tiny.
   double
   CellFlow::imbalance(const Solution &solution, const Drive &drive) const
   {

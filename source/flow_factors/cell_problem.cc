@@ -13,61 +13,13 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <mutex>
 
 namespace tribodraw
 {
   namespace
   {
-    // Pressure and shear flow for one direction of driving; writes column `axis` of both tensors.
-    class ColumnOfTensors
-    {
-    public:
-      ColumnOfTensors(const CellFlow &flow_in, const CellFlow::Window &window_in, const int axis_in)
-          : flow(flow_in), window(window_in), axis(axis_in), pressure(flow.pressure_flow(axis)),
-            shear(flow.shear_flow(axis))
-      {
-      }
-
-      // Component i of the flux that a unit mean pressure gradient (or unit speed of sliding) along `axis` causes.
-      double
-      pressure_factor(const int i) const
-      {
-        return 0 - flow.mean_flux(pressure, i, window); // 0 -: no negative zero
-      }
-      double
-      shear_flux(const int i) const
-      {
-        return flow.mean_flux(shear, i, window);
-      }
-
-      void
-      add_to(CellBounding &bounding) const
-      {
-        bounding.add_pressure_flow(axis, pressure.pressure, pressure.upper_flux);
-        bounding.add_shear_flow(axis, shear.pressure, shear.upper_flux);
-      }
-
-      void
-      record_quality(FlowFactors &result) const
-      {
-        // Just above percolation the flux is tiny and its relative error without meaning: below 1e-4 of the smooth
-        // flux errors count absolutely.
-        const double through = std::max(std::abs(result.phi_p[3 * axis]), 1e-4);
-        const double mismatch
-            = std::max(flow.section_mismatch(pressure, axis) / through, flow.section_mismatch(shear, axis));
-        result.flux_error = std::max(result.flux_error, mismatch);
-        result.residual   = std::max({ result.residual, pressure.residual, shear.residual });
-        result.iterations = std::max({ result.iterations, pressure.iterations, shear.iterations });
-      }
-
-    private:
-      const CellFlow         &flow;
-      const CellFlow::Window &window;
-      const int               axis;
-      CellFlow::Solution      pressure, shear;
-    };
-
     CellFlow::Window
     averaging_window(const CellGrid &grid)
     {
@@ -92,6 +44,64 @@ namespace tribodraw
       return sum / static_cast<double>((window.last[0] - window.first[0]) * (window.last[1] - window.first[1]));
     }
 
+    // What the flow that one drive causes adds to the results.
+    class Evaluation
+    {
+    public:
+      Evaluation(const CellGrid &grid_in, const CellGap &gap_in, const double sq_reference, FlowFactors &result_in)
+          : grid(grid_in), gap(gap_in), window(averaging_window(grid_in)),
+            over_sq(sq_reference > 0 ? 1 / sq_reference : 0.), result(result_in)
+      {
+        result.h_avg            = gap.mean_gap;
+        result.contact_fraction = gap.contact_fraction;
+        const double carried    = over_sq * mean_carried(grid, gap, window);
+        result.phi_p            = { { 0, 0, 0, 0 } };
+        result.phi_s            = { { carried, 0, 0, carried } };
+      }
+
+      // Column drive.axis of one tensor
+      void
+      add(const CellFlow &flow, const CellFlow::Drive &drive, const CellFlow::Solution &solution)
+      {
+        for (int i = 0; i < 2; ++i)
+          if (grid.periodic || i == drive.axis) // side walls without flow determine the diagonal only
+            {
+              const double flux = flow.mean_flux(solution, i, window);
+              if (drive.shear)
+                result.phi_s[2 * i + drive.axis] -= over_sq * gap.mean_gap * flux;
+              else
+                result.phi_p[2 * i + drive.axis] = 0 - flux; // 0 -: no negative zero
+            }
+        result.flux_error = std::max(result.flux_error, flow.imbalance(solution, drive));
+        result.residual   = std::max(result.residual, solution.residual);
+        result.iterations = std::max(result.iterations, solution.iterations);
+      }
+
+    private:
+      const CellGrid        &grid;
+      const CellGap         &gap;
+      const CellFlow::Window window;
+      const double           over_sq;
+      FlowFactors           &result;
+    };
+
+    // Solve for all drives and hand each over. Of large maps one at a time: the memory for one is enough.
+    void
+    solve_each(const CellGrid &grid, const CellFlow &flow, const std::vector<CellFlow::Drive> &drives,
+               const std::function<void(const CellFlow::Drive &, const CellFlow::Solution &)> &use)
+    {
+      constexpr std::size_t large = 4000000;
+      const std::size_t     step  = grid.size() > large ? 1 : drives.size();
+      for (std::size_t first = 0; first < drives.size(); first += step)
+        {
+          const std::vector<CellFlow::Drive> group(drives.begin() + static_cast<std::ptrdiff_t>(first),
+                                                   drives.begin() + static_cast<std::ptrdiff_t>(first + step));
+          const auto                         solutions = flow.solve(group);
+          for (std::size_t i = 0; i < group.size(); ++i)
+            use(group[i], solutions[i]);
+        }
+    }
+
     void
     check_quality(const FlowFactors &result)
     {
@@ -108,41 +118,31 @@ namespace tribodraw
   FlowFactors
   solve_cell_problem(const CellGrid &grid, const CellGap &gap, const CellSettings &settings, const double sq_reference)
   {
-    FlowFactors result;
-    result.h_avg            = gap.mean_gap;
-    result.contact_fraction = gap.contact_fraction;
-    result.phi_p            = { { 0, 0, 0, 0 } };
-    const auto   window     = averaging_window(grid);
-    const double carried    = mean_carried(grid, gap, window);
-    const auto   over_sq    = [sq_reference](const double x) { return sq_reference > 0 ? x / sq_reference : 0.; };
-    result.phi_s            = { { over_sq(carried), 0, 0, over_sq(carried) } };
-
-    std::unique_ptr<CellFlow>     flow;
-    std::unique_ptr<CellBounding> bounding;
-    for (int axis = 0; axis < 2; ++axis)
+    FlowFactors      result;
+    Evaluation       evaluation(grid, gap, sq_reference, result);
+    std::vector<int> axes{ 0, 1 };
+    // periodic: one matrix for both directions
+    for (const int driven_axis : grid.periodic ? std::vector<int>{ 0 } : axes)
       {
-        if (settings.error_bounds && (axis == 0 || !grid.periodic))
-          bounding = std::make_unique<CellBounding>(grid, gap, axis);
-        // periodic: one matrix for both directions
-        if (axis == 0 || !grid.periodic)
-          {
-            flow.reset();
-            flow = std::make_unique<CellFlow>(grid, gap, settings.discretisation, axis);
-          }
-        if (!flow->blocked())
-          {
-            const ColumnOfTensors column(*flow, window, axis);
-            for (int i = 0; i < 2; ++i)
-              if (grid.periodic || i == axis) // side walls without flow determine the diagonal only
-                {
-                  result.phi_p[2 * i + axis] = column.pressure_factor(i);
-                  result.phi_s[2 * i + axis] -= over_sq(gap.mean_gap * column.shear_flux(i));
-                }
-            column.record_quality(result);
-            if (bounding)
-              column.add_to(*bounding);
-          }
-        if (bounding && (axis == 1 || !grid.periodic))
+        std::unique_ptr<CellBounding> bounding;
+        if (settings.error_bounds)
+          bounding = std::make_unique<CellBounding>(grid, gap, driven_axis);
+        {
+          const CellFlow               flow(grid, gap, settings.discretisation, driven_axis);
+          std::vector<CellFlow::Drive> drives;
+          for (const int axis : grid.periodic ? axes : std::vector<int>{ driven_axis })
+            for (const bool shear : { false, true })
+              if (!flow.blocked())
+                drives.push_back({ axis, shear });
+          solve_each(grid, flow, drives, [&](const CellFlow::Drive &drive, const CellFlow::Solution &solution) {
+            evaluation.add(flow, drive, solution);
+            if (bounding && drive.shear)
+              bounding->add_shear_flow(drive.axis, solution.pressure, solution.upper_flux);
+            else if (bounding)
+              bounding->add_pressure_flow(drive.axis, solution.pressure, solution.upper_flux);
+          });
+        }
+        if (bounding)
           bounding->finish(result, sq_reference);
       }
     return result;

@@ -83,6 +83,9 @@ namespace tribodraw
     double mean_flux(const Solution &solution, int axis, const Window &window) const;
     /// Largest difference between the flux through one section across @p axis and the mean of all sections, per area.
     double section_mismatch(const Solution &solution, int axis) const;
+    /// The same across the axis of its drive, for a pressure flow relative to the mean flux. Just above percolation the
+    /// flux is tiny and its relative error without meaning: below 1e-4 of the smooth flux errors count absolutely.
+    double imbalance(const Solution &solution, const Drive &drive) const;
     /// Mean of carried thickness times pressure gradient of a pressure flow: by reciprocity the mean flux along the
     /// driving direction of that pressure flow that sliding along @p axis causes. Independent check of the shear
     /// solution.
@@ -103,7 +106,6 @@ namespace tribodraw
     void   add_drive(const Drive &drive, int axis, int row, double *flux) const;
     void   evaluate(Fields &fields) const;
     void   solve_group(const Drive *drives, int n, Solution *solutions) const;
-    double imbalance(const Solution &solution, const Drive &drive) const;
     std::vector<double> flux_through_sections(const Solution &solution, int axis) const;
   };
 } // namespace tribodraw
