@@ -98,8 +98,12 @@ TEST(Figures, surface_folder)
   write_gsf(map, folder / "surface.gsf");
   write_file(folder / "height_distribution.csv", "height_um,density_per_um\n-1,0.2\n0,0.5\n1,0.2\n");
   write_file(folder / "abbott_curve.csv", "material_ratio,height_um\n0,1\n0.5,0\n1,-1\n");
+  write_file(folder / "surface.csv", "parameter,value,unit\nSq,0.7,um\nSk,1.2,um\nSmr1,5,%\n");
+  write_file(folder / "closed_voids.csv",
+             "contact_fraction,height_um,void_volume_um,closed_void_volume_um,closed_void_area_fraction\n"
+             "0.2,0.6,0.7,0,0\n0.8,-0.6,0.05,0.04,0.1\n");
   figures::draw_all(folder.path());
-  expect_figures(folder, { "surface_map", "height_distribution", "abbott_curve" });
+  expect_figures(folder, { "surface_map", "height_distribution", "abbott_curve", "closed_voids" });
 }
 
 TEST(Figures, flow_factors_and_friction_table_with_the_columns_of_the_files)
