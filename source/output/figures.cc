@@ -1,7 +1,6 @@
 #include <tribodraw/base/csv.h>
 #include <tribodraw/output/figures.h>
 #include <tribodraw/output/plot.h>
-#include <tribodraw/surface/surface_reader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,61 +34,7 @@ namespace tribodraw::figures
       std::snprintf(text, sizeof text, "%.3g", value);
       return text;
     }
-
-    /// The map in um, averaged over squares of pixels if it has more than a picture can show.
-    void
-    draw_heights(const HeightMap &map, const std::filesystem::path &stem)
-    {
-      constexpr std::size_t largest = 1000;
-      const std::size_t     step    = (std::max(map.nx, map.ny) + largest - 1) / largest;
-      plot::MapChart        chart;
-      chart.title       = "Surface heights";
-      chart.x_label     = "x / mm";
-      chart.y_label     = "y / mm";
-      chart.value_label = "Height / µm";
-      plot::Raster &r   = chart.raster;
-      r.nx              = map.nx / step;
-      r.ny              = map.ny / step;
-      r.x_min = r.y_min   = 0;
-      r.x_max             = static_cast<double>(r.nx * step) * map.dx;
-      r.y_max             = static_cast<double>(r.ny * step) * map.dy;
-      constexpr double um = 1e-3;
-      for (std::size_t iy = 0; iy < r.ny; ++iy)
-        for (std::size_t ix = 0; ix < r.nx; ++ix)
-          {
-            double sum = 0;
-            for (std::size_t k = 0; k < step * step; ++k)
-              sum += map(ix * step + k % step, iy * step + k / step);
-            r.value.push_back(sum / static_cast<double>(step * step) / um);
-          }
-      plot::draw(chart, stem);
-    }
   } // namespace
-
-  void
-  draw_surface(const std::filesystem::path &folder)
-  {
-    if (const auto file = folder / "surface.gsf"; std::filesystem::exists(file))
-      draw_heights(read_surface_file(file), folder / "surface_map");
-    if (const auto file = folder / "height_distribution.csv"; std::filesystem::exists(file))
-      {
-        const CsvData   data = read_csv(file);
-        plot::LineChart chart{ "Height distribution", "Height / µm", "Probability density / (1/µm)" };
-        chart.y_from_zero = true;
-        chart.series      = { { "", data.numbers("height_um"), data.numbers("density_per_um"), Style::line } };
-        plot::draw(chart, folder / "height_distribution");
-      }
-    if (const auto file = folder / "abbott_curve.csv"; std::filesystem::exists(file))
-      {
-        const CsvData       data  = read_csv(file);
-        std::vector<double> share = data.numbers("material_ratio");
-        for (double &v : share)
-          v *= 100;
-        plot::LineChart chart{ "Abbott curve", "Share of the area above the height / %", "Height / µm" };
-        chart.series = { { "", share, data.numbers("height_um"), Style::line } };
-        plot::draw(chart, folder / "abbott_curve");
-      }
-  }
 
   void
   draw_flow_factors(const std::filesystem::path &folder)

@@ -12,7 +12,8 @@ namespace tribodraw
     /// All that the files allow. Throws InputError if a file cannot be understood.
     void draw_all(const std::filesystem::path &folder);
 
-    /// surface.gsf, height_distribution.csv, abbott_curve.csv -> surface_map, height_distribution, abbott_curve.
+    /// surface.gsf, height_distribution.csv, abbott_curve.csv, closed_voids.csv -> surface_map, height_distribution,
+    /// abbott_curve, closed_voids.
     void draw_surface(const std::filesystem::path &folder);
     /// flow_factors.csv -> phi_p, phi_s.
     void draw_flow_factors(const std::filesystem::path &folder);
