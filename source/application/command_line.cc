@@ -36,6 +36,9 @@ namespace tribodraw
       std::vector<std::string> known;
       for (const Option &option : options)
         known.push_back(option.name);
+      for (const Verb &verb : verbs())
+        for (const VerbOption &option : verb.options)
+          known.push_back(option.name);
       throw InputError(
           describe_error("Unknown option.", "command line", "'" + word + "'", "", did_you_mean(word, known)));
     }
@@ -49,6 +52,33 @@ namespace tribodraw
       return nullptr;
     }
 
+    /// Whether an option belongs to some verb and, if so, whether it takes a value.
+    const VerbOption *
+    find_verb_option(const std::string &name)
+    {
+      for (const Verb &verb : verbs())
+        for (const VerbOption &option : verb.options)
+          if (option.name == name)
+            return &option;
+      return nullptr;
+    }
+
+    void
+    check_verb_options(const CommandLine &line)
+    {
+      const Verb *verb = line.verb.empty() ? nullptr : find_verb(line.verb);
+      for (const auto &[name, value] : line.verb_options)
+        {
+          const bool known = verb != nullptr
+                             && std::any_of(verb->options.begin(), verb->options.end(),
+                                            [&name = name](const VerbOption &o) { return o.name == name; });
+          if (!known)
+            throw InputError(describe_error("The option has no effect here.",
+                                            verb ? "command line, verb '" + line.verb + "'" : "command line", name, "",
+                                            "See 'tribodraw --help'."));
+        }
+    }
+
     void
     check_verb(const CommandLine &line)
     {
@@ -59,6 +89,7 @@ namespace tribodraw
         throw InputError(describe_error("Wrong number of arguments.", "command line, verb '" + verb->name + "'",
                                         std::to_string(line.arguments.size()), std::to_string(wanted),
                                         "Usage: " + usage));
+      // --output belongs to runs and to verbs that write a file and say so.
       if (!line.output.empty() || !line.settings.empty() || line.resume || line.validate)
         throw InputError(describe_error("--output, --set, --resume and --validate have no effect with a verb.",
                                         "command line, verb '" + verb->name + "'", "", "", "Usage: " + usage));
@@ -103,18 +134,25 @@ namespace tribodraw
         const std::string name   = word.substr(0, equals);
         const auto        option
             = std::find_if(std::begin(options), std::end(options), [&](const Option &o) { return name == o.name; });
-        if (option == std::end(options))
+        const VerbOption *verb_option = find_verb_option(name);
+        if (option == std::end(options) && verb_option == nullptr)
           unknown_option(name);
-        std::string value;
-        if (*option->argument != '\0')
+        const std::string argument = verb_option ? verb_option->argument : option->argument;
+        std::string       value;
+        if (!argument.empty())
           {
             if (equals == std::string::npos && i + 1 == words.size())
-              throw InputError(describe_error("The option needs a value.", "command line", name, option->argument,
+              throw InputError(describe_error("The option needs a value.", "command line", name, argument,
                                               "Give it after a blank."));
             value = equals == std::string::npos ? words[++i] : word.substr(equals + 1);
           }
         else if (equals != std::string::npos)
           throw InputError(describe_error("The option takes no value.", "command line", word));
+        if (verb_option != nullptr)
+          {
+            line.verb_options[name] = value;
+            continue;
+          }
         if (name == "--output")
           line.output = value;
         else if (name == "--set")
@@ -135,6 +173,7 @@ namespace tribodraw
       }
     else
       check_file(line);
+    check_verb_options(line);
     return line;
   }
 
@@ -155,7 +194,12 @@ namespace tribodraw
               + option.description + "\n";
     text += "\nVerbs:\n";
     for (const Verb &verb : verbs())
-      text += padded(verb.name + (verb.argument.empty() ? "" : " " + verb.argument)) + verb.description + "\n";
+      {
+        text += padded(verb.name + (verb.argument.empty() ? "" : " " + verb.argument)) + verb.description + "\n";
+        for (const VerbOption &option : verb.options)
+          text += padded("  " + option.name + (option.argument.empty() ? "" : " " + option.argument))
+                  + option.description + "\n";
+      }
     return text
            + "\nExit codes: 0 done, 2 wrong input, 3 not converged (the last state is written), 1 anything else.\n"
              "First steps: tribodraw init surface && tribodraw surface.prm\n";

@@ -2,11 +2,19 @@
 #include <tribodraw/application/verbs.h>
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
+#include <tribodraw/base/log.h>
 #include <tribodraw/base/suggest.h>
+#include <tribodraw/base/units.h>
+#include <tribodraw/friction_table/coefficient_table.h>
 #include <tribodraw/output/figures.h>
+#include <tribodraw/output/friction_export.h>
 #include <tribodraw/output/report.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -19,8 +27,9 @@ namespace tribodraw
     namespace fs = std::filesystem;
 
     void
-    init(const std::string &given)
+    init(const VerbCall &call)
     {
+      const std::string       &given = call.argument;
       const std::string        name = fs::path(given).extension() == ".prm" ? given.substr(0, given.size() - 4) : given;
       std::vector<std::string> names;
       for (const ShippedFile &file : shipped_files())
@@ -44,7 +53,7 @@ namespace tribodraw
     }
 
     void
-    list(const std::string &)
+    list(const VerbCall &)
     {
       std::map<std::string, std::vector<ModelInfo>> families;
       for (const ModelInfo &model : all_registered_models())
@@ -78,7 +87,7 @@ namespace tribodraw
     }
 
     void
-    parameters(const std::string &)
+    parameters(const VerbCall &)
     {
       std::cout << "# Parameters\n\nOne section for each task. Values carry their unit, as in `0.82 mm`; any unit of "
                    "the same "
@@ -138,9 +147,10 @@ namespace tribodraw
     }
 
     void
-    explain(const std::string &path)
+    explain(const VerbCall &call)
     {
-      const auto all = all_entries();
+      const std::string &path = call.argument;
+      const auto         all  = all_entries();
       if (const auto found = all.find(path); found != all.end())
         return print_entry(found->second);
       // A section: all entries below it.
@@ -172,9 +182,79 @@ namespace tribodraw
                          hint.empty() ? "'tribodraw parameters' shows all." : "Did you mean " + hint + "?"));
     }
 
-    void
-    report(const std::string &folder)
+    std::string
+    all_formats()
     {
+      std::string all;
+      for (const std::string &name : friction_export_formats())
+        all += (all.empty() ? "" : ", ") + name;
+      return "one of " + all;
+    }
+
+    /// The number given for an option, or the default.
+    double
+    option_number(const VerbCall &call, const std::string &name, const double default_value)
+    {
+      const auto at = call.options.find(name);
+      if (at == call.options.end())
+        return default_value;
+      char        *end   = nullptr;
+      const double value = std::strtod(at->second.c_str(), &end);
+      if (at->second.empty() || *end != '\0' || !std::isfinite(value) || value < 0)
+        throw InputError(describe_error("The value of the option is not a number from zero.", "command line, " + name,
+                                        "'" + at->second + "'"));
+      return value;
+    }
+
+    std::string
+    short_number(const double value)
+    {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3g", value);
+      return text;
+    }
+
+    void
+    export_table(const VerbCall &call)
+    {
+      if (call.options.count("--format") == 0)
+        throw InputError(
+            describe_error("The format is missing.", "tribodraw export", "", all_formats(), "Add --format FORMAT."));
+      const auto             format = make_friction_export(call.options.at("--format"));
+      const fs::path         source = call.argument;
+      CoefficientTable       table  = CoefficientTable::read(source);
+      FrictionExportSettings settings;
+      for (const unsigned char c : source.stem().string())
+        settings.name += std::isalnum(c) || c == '-' ? static_cast<char>(c) : '_';
+      settings.max_error = option_number(call, "--max-error", settings.max_error);
+      if (call.options.count("--strain") > 0)
+        {
+          const double strain = option_number(call, "--strain", 0);
+          table               = table.at_strain(strain);
+          settings.note       = "At equivalent plastic strain " + units::number(strain) + ".";
+        }
+      else if (!format->takes_strain() && table.strains.size() > 1)
+        {
+          settings.note = "Mean over equivalent plastic strains " + units::number(table.strains.front()) + " to "
+                          + units::number(table.strains.back()) + "; the coefficient differs from it by up to "
+                          + short_number(table.strain_deviation()) + ".";
+          table = table.mean_over_strain();
+          log::warning("The format holds no strain. " + settings.note + " Choose one strain with --strain.");
+        }
+      fs::path target = source.parent_path() / (source.stem().string() + format->file_ending());
+      if (call.options.count("--to") > 0)
+        target = call.options.at("--to");
+      if (fs::exists(target) && fs::equivalent(source, target))
+        throw InputError(describe_error("The export would overwrite the table itself.", "tribodraw export",
+                                        target.string(), "", "Name another file with --to."));
+      write_file(target, format->text(table, settings));
+      std::cout << "Wrote " << target.string() << "\n";
+    }
+
+    void
+    report(const VerbCall &call)
+    {
+      const std::string &folder = call.argument;
       if (!fs::is_directory(folder))
         throw InputError(describe_error("The output folder does not exist.", "tribodraw report", "'" + folder + "'"));
       if (!fs::exists(fs::path(folder) / "run_info.txt"))
@@ -186,7 +266,7 @@ namespace tribodraw
     }
 
     void
-    doctor(const std::string &)
+    doctor(const VerbCall &)
     {
       std::cout << examine_machine();
     }
@@ -200,6 +280,14 @@ namespace tribodraw
       { "explain", "'Section/Entry'", "meaning, unit, allowed values and default of an entry", explain },
       { "list", "", "all models with one sentence and their source", list },
       { "parameters", "", "all entries of all tasks as Markdown", parameters },
+      { "export",
+        "TABLE",
+        "write a friction table or the coefficients of a strip draw for another program",
+        export_table,
+        { { "--format", "FORMAT", all_formats() },
+          { "--strain", "VALUE", "the strain at which to take the coefficient; default: the mean over all strains" },
+          { "--max-error", "VALUE", "how far a fitted formula may be off; default: 0.02" },
+          { "--to", "FILE", "the file to write; default: beside TABLE" } } },
       { "report", "DIR", "draw figures and report.html of an output folder again", report },
       { "doctor", "", "examine what the program needs from this machine", doctor }
     };

@@ -3,6 +3,24 @@
 
 namespace tribodraw
 {
+  void
+  LubricationSettings::read_micro_settings(Parameters &parameters)
+  {
+    const std::string p0 = parameters.choice(
+        "Boundary layer pressure", { "solid plus lubricant", "nominal" },
+        "Pressure P0 in the law of the boundary layer, tau_BL(P0). `solid plus lubricant`: P_solid/alpha + P_lub, the "
+        "pressure on an asperity top; `nominal`: P_nom/alpha as printed in the paper, which makes the solid friction "
+        "independent of the lubricant pressure.",
+        Default{ "solid plus lubricant",
+                 "equilibrium of an asperity top that carries load beside pressurised valleys" });
+    boundary_layer_pressure
+        = p0 == "nominal" ? BoundaryLayerPressure::nominal : BoundaryLayerPressure::solid_plus_lubricant;
+    phi_p_floor = parameters.quantity(
+        "Smallest pressure factor", "", Range{ 0., 1., true }.usual(1e-6, 0.1),
+        "Lower limit of the eigenvalues of the pressure flow factor.",
+        Default{ "1e-3", "below percolation it is zero; forces agree within 0.1 % for 1e-2 to 1e-4" });
+  }
+
   LubricationSettings
   LubricationSettings::read(Parameters &parameters)
   {
@@ -17,16 +35,8 @@ namespace tribodraw
           Default{ "paper rule", "the rule of Shisode et al. (2021)" });
       s.supply = Supply::paper_rule;
     }
-    const auto        scope = parameters.section("Coupling");
-    const std::string p0    = parameters.choice(
-           "Boundary layer pressure", { "solid plus lubricant", "nominal" },
-           "Pressure P0 in the law of the boundary layer, tau_BL(P0). `solid plus lubricant`: P_solid/alpha + P_lub, the "
-              "pressure on an asperity top; `nominal`: P_nom/alpha as printed in the paper, which makes the solid friction "
-              "independent of the lubricant pressure.",
-           Default{ "solid plus lubricant",
-                 "equilibrium of an asperity top that carries load beside pressurised valleys" });
-    s.boundary_layer_pressure
-        = p0 == "nominal" ? BoundaryLayerPressure::nominal : BoundaryLayerPressure::solid_plus_lubricant;
+    const auto scope = parameters.section("Coupling");
+    s.read_micro_settings(parameters);
     s.film_iterations = static_cast<unsigned>(parameters.integer(
         "Film iterations", Range::between(1, 50),
         "Film solutions in an increment at most (flattening and pressure in turn).",
@@ -57,10 +67,6 @@ namespace tribodraw
     s.max_friction = parameters.quantity(
         "Largest friction coefficient", "", Range{ 0., 1., true }, "Upper limit of the local friction coefficient.",
         Default{ "0.3", "the power law of the boundary layer has no limit when a flattened node is unloaded" });
-    s.phi_p_floor = parameters.quantity(
-        "Smallest pressure factor", "", Range{ 0., 1., true }.usual(1e-6, 0.1),
-        "Lower limit of the eigenvalues of the pressure flow factor.",
-        Default{ "1e-3", "below percolation it is zero; forces agree within 0.1 % for 1e-2 to 1e-4" });
     if (s.min_friction > s.max_friction)
       parameters.problem("Smallest friction coefficient", "It is above `Largest friction coefficient`.");
     return s;

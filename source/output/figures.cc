@@ -110,6 +110,7 @@ namespace tribodraw::figures
     draw_surface(folder);
     draw_flow_factors(folder);
     draw_friction_table(folder);
+    draw_strip(folder);
     draw_forming(folder);
   }
 } // namespace tribodraw::figures

@@ -2,6 +2,7 @@
 #define tribodraw_application_command_line_h
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace tribodraw
     std::vector<std::string> arguments;
     std::filesystem::path    output; ///< empty: default
     std::vector<std::string> settings;
+    std::map<std::string, std::string> verb_options; ///< options of the verb that were given, by name
     bool                     resume = false, validate = false, quiet = false, help = false, version = false;
 
     /// @param words without the name of the program. Throws InputError with the nearest known word for a mistyped

@@ -2,18 +2,33 @@
 #define tribodraw_application_verbs_h
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace tribodraw
 {
+  /// An option that only one verb understands, such as `--format` of `tribodraw export`.
+  struct VerbOption
+  {
+    std::string name, argument, description;
+  };
+
+  /// What was typed after a verb.
+  struct VerbCall
+  {
+    std::string                        argument; ///< empty if the verb takes none
+    std::map<std::string, std::string> options;  ///< by name, those that were given
+  };
+
   /// A command beside running a parameter file, such as `tribodraw list`.
   struct Verb
   {
-    std::string                                            name;
-    std::string                                            argument; ///< what it takes, for the help; empty: nothing
-    std::string                                            description;
-    std::function<void(const std::string &argument_value)> run;
+    std::string                           name;
+    std::string                           argument; ///< what it takes, for the help; empty: nothing
+    std::string                           description;
+    std::function<void(const VerbCall &)> run;
+    std::vector<VerbOption>               options = {};
   };
 
   /// All verbs in the order of the help.

@@ -10,8 +10,8 @@ namespace tribodraw
   /// The oil on the sheet.
   struct Lubricant
   {
-    std::shared_ptr<const ViscosityLaw> viscosity_law;
-    double                              density = std::numeric_limits<double>::signaling_NaN(); ///< [t/mm^3]
+    std::shared_ptr<ViscosityLaw> viscosity_law;
+    double                        density = std::numeric_limits<double>::signaling_NaN(); ///< [t/mm^3]
     double amount = std::numeric_limits<double>::signaling_NaN(); ///< on each face of the sheet [t/mm^2]
 
     /// Film on each face of the unstretched sheet, all valleys included: amount / density [mm].

@@ -26,7 +26,7 @@ namespace tribodraw
     /// @param pressure [MPa] >= 0; @param shear_rate [1/s] >= 0
     virtual Value viscosity(double pressure, double shear_rate) const = 0;
 
-    /// @param value [MPa s] at ambient pressure. To be called once, before the first viscosity().
+    /// @param value [MPa s] at ambient pressure. To be called before the first viscosity().
     void
     set_reference_viscosity(double value)
     {

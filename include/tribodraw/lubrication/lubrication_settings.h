@@ -34,6 +34,9 @@ namespace tribodraw
 
     /// Reads `Coupling` and `Lubricant/Supply`; call at the top level of the file.
     static LubricationSettings read(Parameters &parameters);
+    /// Reads the two entries of the current subsection (`Coupling`) that every contact with asperities needs:
+    /// `Boundary layer pressure` and `Smallest pressure factor`.
+    void read_micro_settings(Parameters &parameters);
   };
 } // namespace tribodraw
 

@@ -21,6 +21,9 @@ namespace tribodraw
     /// table_friction_coefficient, each over solid pressure for several plastic strains.
     void draw_friction_table(const std::filesystem::path &folder);
 
+    /// strip_profile.csv, sweep_<quantity>.csv -> strip_pressure, strip_gap, sweep_<quantity>.
+    void draw_strip(const std::filesystem::path &folder);
+
     /// history.csv of a forming run -> force_travel, draw_in, mean_friction, peak_lubricant_pressure.
     void draw_history(const std::filesystem::path &folder);
     /// nodes_final.csv (`node,x_mm,y_mm,z_mm,x0_mm,y0_mm` and fields) and elements_final.csv (`element,n1,n2,n3` and

@@ -37,9 +37,9 @@ class Options(InFolder):
     def test_help_names_all_options_verbs_and_exit_codes(self):
         text = self.run_program("--help").stdout
         for word in ["--output", "--set", "--resume", "--validate", "--quiet", "--help", "--version", "init", "explain", "list",
-                     "parameters", "report", "doctor", "output/NAME"]:
+                     "parameters", "export", "--format", "report", "doctor", "output/NAME"]:
             self.assertIn(word, text)
-        for word in ["export", "compare"]:  # come with their issues
+        for word in ["compare"]:  # comes with its issue
             self.assertNotIn(word, text)
 
     def test_version(self):
@@ -52,7 +52,10 @@ class Options(InFolder):
                  (): "No parameter file", ("lst",): "Did you mean 'list'?", ("a.prm", "b.prm"): "a.prm",
                  ("a.prm",): "a.prm", ("--output",): "needs a value", ("--quiet=yes", "a.prm"): "takes no value",
                  ("explain",): "tribodraw explain", ("list", "--resume"): "no effect", ("init", "surfce"): "Did you mean 'surface'?",
-                 ("explain", "Task/Nothing"): "Task/Nothing", ("report", "nowhere"): "nowhere"}
+                 ("explain", "Task/Nothing"): "Task/Nothing", ("report", "nowhere"): "nowhere",
+                 ("export", "nowhere.json", "--format", "csv"): "nowhere.json", ("export", "nowhere.json"): "--format",
+                 ("export", "x.json", "--format", "abacus"): "Did you mean 'abaqus'?",
+                 ("list", "--format", "csv"): "no effect", ("a.prm", "--strain", "1"): "no effect"}
         for arguments, expected in cases.items():
             with self.subTest(arguments):
                 result = self.run_program(*arguments, code=2)

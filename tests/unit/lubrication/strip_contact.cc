@@ -119,7 +119,6 @@ TEST(StripContact, stribeck_curve_and_monotony)
       EXPECT_GE(result.lubricant_share, share);
       // The asperities' part never rises; streaks in the opening outlet drag a little on the strip (1e-4 here).
       EXPECT_LE(result.solid_friction, mu * (1 + 1e-9));
-      EXPECT_LT(result.viscous_friction, 0.02 * result.friction_coefficient);
       EXPECT_LT(result.flow_error, 1e-12);
       share = result.lubricant_share;
       mu    = result.solid_friction;
