@@ -256,10 +256,12 @@ namespace tribodraw
     return value_unit;
   }
 
-  std::optional<double>
-  TextHeader::coordinate_unit() const
+  std::optional<std::array<double, 2>>
+  TextHeader::coordinate_units() const
   {
-    return axis_units[0] && axis_units[1] && *axis_units[0] == *axis_units[1] ? axis_units[0] : std::nullopt;
+    if (!axis_units[0] || !axis_units[1])
+      return {};
+    return std::array<double, 2>{ *axis_units[0], *axis_units[1] };
   }
 
   bool

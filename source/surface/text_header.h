@@ -25,8 +25,8 @@ namespace tribodraw
     /// contradicts itself or the numbers counted.
     std::optional<std::array<double, 2>> pixel_size(std::size_t nx, std::size_t ny, const std::string &file) const;
     std::optional<double>                height_unit() const;
-    /// Unit of coordinates [mm].
-    std::optional<double> coordinate_unit() const;
+    /// Units of coordinates along x and y [mm], if both are stated.
+    std::optional<std::array<double, 2>> coordinate_units() const;
 
     /// Units in the title line of a table of points, `X[um];Y[um];Z[nm]`. @return false if the line is none.
     bool read_point_titles(std::string_view line, const std::string &where);

@@ -214,8 +214,8 @@ namespace tribodraw
         raw.nx    = grid.x.n;
         raw.ny    = grid.y.n;
         raw.pitch = { grid.x.pitch, grid.y.pitch };
-        if (const auto unit = header.coordinate_unit())
-          raw.pixel_size = { grid.x.pitch * *unit, grid.y.pitch * *unit };
+        if (const auto unit = header.coordinate_units())
+          raw.pixel_size = { grid.x.pitch * (*unit)[0], grid.y.pitch * (*unit)[1] };
         raw.height_unit = header.height_unit();
         raw.heights     = [text, file, grid](const HeightSink &sink) {
           Points points(text, file);

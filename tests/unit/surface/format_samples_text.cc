@@ -91,7 +91,8 @@ namespace format_samples
     {
       std::string header, separator = " ", line_end = "\n";
       bool   with_missing = false, list_missing = false, decimal_comma = false, shuffled = false, by_column = false;
-      double noise = 0; ///< of the coordinates [um]
+      double noise    = 0; ///< of the coordinates [um]
+      double y_factor = 1;
     };
 
     std::string
@@ -117,8 +118,8 @@ namespace format_samples
               std::replace(digits.begin(), digits.end(), '.', ',');
             return digits;
           };
-          text += number(100.25 + 2. * ix) + style.separator + number(-7. + 3. * iy) + style.separator
-                  + (gone ? "NaN" : in_um(height(ix, iy), style.decimal_comma)) + style.line_end;
+          text += number(100.25 + 2. * ix) + style.separator + number(style.y_factor * (-7. + 3. * iy))
+                  + style.separator + (gone ? "NaN" : in_um(height(ix, iy), style.decimal_comma)) + style.line_end;
         }
       return text;
     }
@@ -160,7 +161,11 @@ namespace format_samples
       style.separator = ",";
       style.header    = "X[um],Y[\xC2\xB5m],Z[um]\n";
       add("titles with units", style, {});
-      style.header = "x, y, z\n";
+      style.header   = "X[um],Y[mm],Z[um]\n";
+      style.y_factor = 1e-3;
+      add("titles with different units", style, {});
+      style.y_factor = 1;
+      style.header   = "x, y, z\n";
       add("titles", style);
       style.header = "# XY units: um\n# Value units: um\n";
       add("comments with units", style, {});
