@@ -193,13 +193,76 @@ TEST(ExactCells, checkerboard)
     }
 }
 
+TEST(ExactCells, checkerboard_extrapolated)
+{
+  // Harmonic means converge slowly at the corners, but with a known order p = (8/pi) atan (h2/h1)^1.5: the value for
+  // vanishing pixels follows from two sizes, f + (f - f_coarse)/(2^p - 1).
+  for (const double h2 : { .7, .6, .5 })
+    {
+      const double exact = std::pow(h2, 1.5) / std::pow((1 + h2) / 2, 3), p = 8 / pi * std::atan(std::pow(h2, 1.5));
+      double       phi[3];
+      for (const int i : { 0, 1, 2 })
+        phi[i] = solve(map_of_gap(32u << i, 32u << i,
+                                  [h2](const double x, const double y) { return (x < .5) == (y < .5) ? 1. : h2; }),
+                       0, 1, periodic(CellDiscretisation::paper))
+                     .phi_p[0];
+      const double extrapolated = phi[2] + (phi[2] - phi[1]) / (std::pow(2, p) - 1);
+      EXPECT_NEAR(order(phi[1] - exact, phi[2] - exact), p, .06) << h2;
+      EXPECT_NEAR(extrapolated, exact, 1e-3 * exact) << h2;
+      EXPECT_LT(std::abs(extrapolated - exact), .1 * std::abs(phi[2] - exact)) << h2;
+    }
+}
+
+TEST(ExactCells, log_normal_gap)
+{
+  // ln h = s f with f(x + 1/2, y + 1/2) = -f: the coefficient and its inverse are the same up to a shift, and f is even
+  // in x and in y and symmetric to their exchange, so the tensor is isotropic. By duality the conductance is then that
+  // of the geometric mean, exp(3 <ln h>) = 1 exactly: PhiP = <h>^-3. The mean of a smooth periodic function is exact on
+  // the pixels used here.
+  const auto exponent = [](const double x, const double y) {
+    const double cx = std::cos(2 * pi * x), cy = std::cos(2 * pi * y), c2x = std::cos(4 * pi * x),
+                 c2y = std::cos(4 * pi * y);
+    return cx + cy + c2x * cy + cx * c2y;
+  };
+  for (const double s : { .2, .4 })
+    for (const auto discretisation : both_discretisations)
+      {
+        double error[2];
+        for (const int i : { 0, 1 })
+          {
+            const FlowFactors r
+                = solve(map_of_gap(64u << i, 64u << i,
+                                   [&](const double x, const double y) { return std::exp(s * exponent(x, y)); }),
+                        0, 1, periodic(discretisation));
+            error[i] = r.phi_p[0] - std::pow(r.h_avg, -3);
+            EXPECT_NEAR(r.phi_p[0], r.phi_p[3], 1e-12);
+          }
+        EXPECT_NEAR(order(error[0], error[1]), 2, .1) << s;
+        EXPECT_NEAR(error[1], 0, 5e-3) << s;
+      }
+  // Gaussian ln h of variance s^2 (Matheron 1967): exp(-1.5 s^2) = .94176, .78663. On one map exp(3 <ln h>)/<h>^3 for
+  // the mean of both directions (geometric, as the product of the principal values is what duality fixes).
+  HeightMap map = gaussian_map(256, 6, 61);
+  for (const double s : { .2, .4 })
+    {
+      HeightMap h = map;
+      for (double &z : h.z)
+        z = -std::exp(s * z);
+      const FlowFactors f           = solve(h, 0, 1, periodic());
+      const double      determinant = f.phi_p[0] * f.phi_p[3] - f.phi_p[1] * f.phi_p[2];
+      EXPECT_NEAR(std::sqrt(determinant), std::pow(f.h_avg, -3), .003) << s;
+      EXPECT_NEAR(std::sqrt(determinant), std::exp(-1.5 * s * s), .006) << s;
+    }
+}
+
 TEST(ExactCells, bisinusoidal)
 {
   // h = 1 + a sin sin, Sq = a/2: values of an independent spectral (Fourier) solution of the periodic cell
   const struct
   {
     double a, phi_p, phi_s;
-  } cases[] = { { .2, .98544454, .14888263 }, { .5, .92253471, .35814022 }, { .9, .83959142, .58485301 } };
+  } cases[] = { { .2, .98544454, .14888263 }, { .4, .94685674, .29123911 }, { .5, .92253471, .35814022 },
+                { .6, .89764332, .42137909 }, { .8, .85451919, .53505486 }, { .9, .83959142, .58485301 } };
   for (const auto &c : cases)
     for (const auto discretisation : both_discretisations)
       {
@@ -245,6 +308,47 @@ TEST(ExactCells, scaling_and_rotation)
       check(solve(rotated(map), .8, 1, periodic(discretisation), {}, 3e-4),
             { { f.phi_p[3], -f.phi_p[2], -f.phi_p[1], f.phi_p[0] } },
             { { f.phi_s[3], -f.phi_s[2], -f.phi_s[1], f.phi_s[0] } });
+    }
+}
+
+TEST(ExactCells, one_reference_roughness)
+{
+  // Sq only scales PhiS: whatever the surfaces are, PhiP and Sq PhiS do not know it
+  const HeightMap   map = gaussian_map(48, 4, 62);
+  const FlowFactors a = solve(map, 1, 1, periodic(), {}, 3e-4), b = solve(map, 1, 4, periodic(), {}, 3e-4 / 4);
+  for (const std::size_t k : { 0, 1, 2, 3 })
+    {
+      EXPECT_NEAR(a.phi_p[k], b.phi_p[k], 1e-12);
+      EXPECT_NEAR(a.phi_s[k], 4 * b.phi_s[k], 1e-12);
+    }
+}
+
+TEST(PaperBoundaryConditions, scaling_and_sign)
+{
+  // Without the pixel area in A.7 PhiS would change with the unit of length, with the printed sign of Eq. 4 PhiP would
+  // be negative. Pixels that are not square, both directions.
+  HeightMap map = gaussian_map(50, 4, 63);
+  map.dy        = 1.7;
+  for (const auto discretisation : both_discretisations)
+    {
+      const CellSettings settings{ CellBoundaryConditions::paper, discretisation };
+      const FlowFactors  f      = solve(map, 1.2, 1, settings, {}, 3e-4);
+      HeightMap          scaled = map;
+      for (double &z : scaled.z)
+        z *= 1e-3;
+      scaled.dx *= 7;
+      scaled.dy *= 7;
+      const FlowFactors g = solve(scaled, 1.2e-3, 1e-3, settings, {}, 3e-4),
+                        r = solve(rotated(map), 1.2, 1, settings, {}, 3e-4);
+      for (const std::size_t k : { 0, 3 })
+        {
+          EXPECT_GT(f.phi_p[k], .2);
+          EXPECT_GT(f.phi_s[k], .2);
+          EXPECT_NEAR(g.phi_p[k], f.phi_p[k], 1e-11);
+          EXPECT_NEAR(g.phi_s[k], f.phi_s[k], 1e-11);
+          EXPECT_NEAR(r.phi_p[3 - k], f.phi_p[k], 1e-11);
+          EXPECT_NEAR(r.phi_s[3 - k], f.phi_s[k], 1e-11);
+        }
     }
 }
 
