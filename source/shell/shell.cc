@@ -124,7 +124,10 @@ namespace tribodraw
     check(mesh, thickness);
     data = std::make_unique<Implementation>(
         mesh, thickness, std::move(material),
-        shell_element::make_thickness_rule(n_thickness_points, kind == ThicknessPoints::lobatto), membrane);
+        kind == ThicknessPoints::halves
+            ? shell_element::make_halved_thickness_rule(n_thickness_points)
+            : shell_element::make_thickness_rule(n_thickness_points, kind == ThicknessPoints::lobatto),
+        membrane);
   }
 
   Shell::~Shell() = default;

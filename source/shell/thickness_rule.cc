@@ -26,4 +26,21 @@ namespace tribodraw::shell_element
       }
     return result;
   }
+
+  ThicknessRule
+  make_halved_thickness_rule(const unsigned n)
+  {
+    if (n < 4 || n > 10 || n % 2 != 0)
+      throw InputError(describe_error("The number of thickness points does not fit Gauss points in each half.", "shell",
+                                      std::to_string(n), "4, 6, 8, 10", "6 serve springback"));
+    const dealii::QGauss<1> rule(n / 2);
+    ThicknessRule           result;
+    for (const double half : { -0.5, 0.5 })
+      for (unsigned l = 0; l < n / 2; ++l)
+        {
+          result.point.push_back(half + rule.point(l)[0] - 0.5);
+          result.weight.push_back(0.5 * rule.weight(l));
+        }
+    return result;
+  }
 } // namespace tribodraw::shell_element

@@ -61,6 +61,9 @@ namespace tribodraw::shell_element
     std::vector<double> point, weight;
   };
   ThicknessRule make_thickness_rule(unsigned n, bool lobatto = false);
+  /// Gauss points in each half of the thickness; @p n even, 4 to 10. The stress of bending has a kink at the
+  /// mid-surface: the moment of a plastic section is 20 to 50 times more exact than with as many points in one rule.
+  ThicknessRule make_halved_thickness_rule(unsigned n);
 
   /// Position, director and its two tangents e_1, e_2 of the three nodes.
   struct NodeState
