@@ -16,6 +16,7 @@ namespace
 {
   std::atomic<std::size_t> live{ 0 }, highest{ 0 };
 
+#if !defined(__SANITIZE_ADDRESS__)
   void
   count(void *block)
   {
@@ -42,8 +43,10 @@ namespace
       live -= malloc_usable_size(block);
     std::free(block);
   }
+#endif
 } // namespace
 
+#if !defined(__SANITIZE_ADDRESS__)
 void *
 operator new(std::size_t n)
 {
@@ -74,6 +77,7 @@ operator delete[](void *block, std::size_t) noexcept
 {
   release(block);
 }
+#endif
 
 namespace guarded_read
 {

@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-/// Reading with limited and counted memory. The program that contains this file counts every `new`.
+/// Reading with limited and counted memory. The program that contains this file counts every `new`, unless it is
+/// sanitized: sanitizers have their own.
 namespace guarded_read
 {
   constexpr std::size_t allowance = 64u << 20; ///< above the size of the file, before a file is rejected
