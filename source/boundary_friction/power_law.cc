@@ -16,10 +16,7 @@ namespace tribodraw
       explicit PowerLaw(Parameters &parameters)
           : exponent(parameters.quantity("m", "", Range{ 0., 1., true }.usual(0.5, 1.),
                                          "Exponent of the pressure in tau_BL = c0 P0^m.")),
-            coefficient(parameters.quantity(
-                "c0", coefficient_unit(parameters.documentation_mode() ? 0.75 : exponent), Range::positive(),
-                "Coefficient of tau_BL = c0 P0^m. Its unit follows from m: Pa^(1-m), with any unit of pressure. For "
-                "m = 0.75 that is Pa^0.25; for m = 1 it is a plain number, the friction coefficient."))
+            coefficient(read_coefficient(parameters, exponent))
       {
       }
 
@@ -30,6 +27,20 @@ namespace tribodraw
       }
 
     private:
+      static double
+      read_coefficient(Parameters &parameters, const double m)
+      {
+        if (!(m > 0 && m <= 1) && !parameters.documentation_mode())
+          {
+            parameters.mark_unselected("c0"); // its unit is not known until m is right
+            return 0.;
+          }
+        return parameters.quantity(
+            "c0", coefficient_unit(parameters.documentation_mode() ? 0.75 : m), Range::positive(),
+            "Coefficient of tau_BL = c0 P0^m. Its unit follows from m: Pa^(1-m), with any unit of pressure. For "
+            "m = 0.75 that is Pa^0.25; for m = 1 it is a plain number, the friction coefficient.");
+      }
+
       static std::string
       coefficient_unit(const double m)
       {

@@ -26,18 +26,18 @@ namespace tribodraw
         if (fraction.size() != ratio.size())
           parameters.problem("Hardness over flow stress",
                              std::to_string(ratio.size()) + " values for " + std::to_string(fraction.size())
-                                 + " contact fractions",
+                                 + " contact fractions.",
                              "one value for each contact fraction");
         for (std::size_t i = 1; i < std::min(fraction.size(), ratio.size()); ++i)
           {
             if (!(fraction[i] > fraction[i - 1]))
               parameters.problem("Contact fractions",
-                                 "value " + std::to_string(i + 1) + " is not greater than the one before it",
+                                 "value " + std::to_string(i + 1) + " is not greater than the one before it.",
                                  "an ascending list");
             else if (!load_increases(i))
               parameters.problem("Hardness over flow stress",
                                  "the load, hardness times contact fraction, falls before contact fraction "
-                                     + units::number(fraction[i]),
+                                     + units::number(fraction[i]) + ".",
                                  "values with which the load rises with the contact fraction",
                                  "A sheet that carries less the more it is flattened has no stable state.");
           }

@@ -69,7 +69,9 @@ TEST(BoundaryLayer, RefusesWrongUnitsAndExponents)
   EXPECT_NE(message("11.2 Pa", "0.75").find("c0"), std::string::npos);
   EXPECT_NE(message("11.2 Pa", "0.75").find("Pa^0.25"), std::string::npos) << message("11.2 Pa", "0.75");
   EXPECT_NE(message("11.2", "0.75").find("c0"), std::string::npos);
-  EXPECT_NE(message("11.2 Pa^0.25", "1.75").find("m"), std::string::npos);
+  EXPECT_NE(message("11.2 Pa^0.25", "1.75").find("Power law/m"), std::string::npos);
+  EXPECT_EQ(message("11.2 Pa^0.25", "1.75").find("c0"), std::string::npos); // one mistake, one complaint
+  EXPECT_NE(message("11.2 Pa^0.25", "-0.5").find("Power law/m"), std::string::npos);
   EXPECT_NE(message("-11.2 Pa^0.25", "0.75").find("c0"), std::string::npos);
 }
 
