@@ -130,7 +130,7 @@ namespace tribodraw
     for (int iy = 0; iy < l.ny; ++iy)
       for (int s = c.first_site[iy]; s < c.first_site[iy + 1]; ++s)
         {
-          m.y[s]                                                 = iy;
+          m.y[s]                                                  = iy;
           number[static_cast<std::size_t>(iy) * l.nx + c.site[s]] = s;
         }
   }
@@ -147,8 +147,8 @@ namespace tribodraw
     const bool   along_x = ix % 2 == 1;
     const double below   = along_x ? k.x_row(iy)[ix] : k.y_row(iy)[ix],
                  above   = along_x ? k.x_row(iy)[ix + 1] : k.y_row(iy + 1)[ix];
-    const int    first = along_x ? node(ix - 1, iy) : node(ix, iy - 1),
-              second   = along_x ? node(next_x(ix), iy) : node(ix, next_y(iy));
+    const int first      = along_x ? node(ix - 1, iy) : node(ix, iy - 1),
+              second     = along_x ? node(next_x(ix), iy) : node(ix, next_y(iy));
     if (below > 0 && first >= 0)
       end.add(first, below / (below + above));
     if (above > 0 && second >= 0)
@@ -254,8 +254,8 @@ namespace tribodraw
     const bool   along_x = ix % 2 == 1;
     const double below   = along_x ? k.x_row(iy)[ix] : k.y_row(iy)[ix],
                  above   = along_x ? k.x_row(iy)[ix + 1] : k.y_row(iy + 1)[ix];
-    const int    first = along_x ? node(ix - 1, iy) : node(ix, iy - 1), here = node(ix, iy),
-              second   = along_x ? node(next_x(ix), iy) : node(ix, next_y(iy));
+    const int first = along_x ? node(ix - 1, iy) : node(ix, iy - 1), here = node(ix, iy),
+              second = along_x ? node(next_x(ix), iy) : node(ix, next_y(iy));
     if (here >= 0)
       {
         if (below > 0)

@@ -56,8 +56,8 @@ namespace tribodraw
     std::vector<float>                coarse_rhs, coarse_x;
     std::array<std::vector<float>, 2> parity; // 1 at even pixels of a row, 1 at odd pixels
     std::vector<Stage>                stage;
-    const bool                        odd_x, odd_y;          // same colour across the border
-    std::vector<float>                first_row, last_row;   // old values of both
+    const bool                        odd_x, odd_y;        // same colour across the border
+    std::vector<float>                first_row, last_row; // old values of both
 
     int
     wrapped(const int iy) const

@@ -22,10 +22,10 @@ namespace tribodraw
       : k(conductances), floating(std::move(floating_in))
   {
     // Measured on random surfaces: below some 100 x 100 pixels the factorisation is as fast, and exact.
-    constexpr double min_pixels = 10000;
-    const CellLayout &layout    = k.layout;
-    const bool        possible  = std::min(layout.nx, layout.ny) >= CellMultigrid::min_width;
-    const bool        pays      = static_cast<double>(layout.nx) * layout.ny >= min_pixels;
+    constexpr double  min_pixels = 10000;
+    const CellLayout &layout     = k.layout;
+    const bool        possible   = std::min(layout.nx, layout.ny) >= CellMultigrid::min_width;
+    const bool        pays       = static_cast<double>(layout.nx) * layout.ny >= min_pixels;
     if (possible && (choice == CellSolverChoice::multigrid || (choice == CellSolverChoice::automatic && pays)))
       multigrid = std::make_unique<CellMultigrid>(k);
     else
@@ -37,9 +37,9 @@ namespace tribodraw
   void
   CellSolver::factorise()
   {
-    factors                = std::make_unique<Factors>();
-    const CellLayout &l    = k.layout;
-    const auto        cell = [&l](const int ix, const int iy) { return static_cast<std::size_t>(iy) * l.nx + ix; };
+    factors                  = std::make_unique<Factors>();
+    const CellLayout   &l    = k.layout;
+    const auto          cell = [&l](const int ix, const int iy) { return static_cast<std::size_t>(iy) * l.nx + ix; };
     std::vector<double> diagonal;
     factors->unknown.assign(cell(0, l.ny), -1);
     for (int iy = 0; iy < l.ny; ++iy)
@@ -61,8 +61,7 @@ namespace tribodraw
     const auto couple = [&](const int ix, const int iy, const int jx, const int jy, const double c) {
       if (c > 0 && jx >= 0 && jy >= 0)
         {
-          const auto [low, high]
-              = std::minmax(factors->unknown[cell(ix, iy)], factors->unknown[cell(jx, jy)]);
+          const auto [low, high] = std::minmax(factors->unknown[cell(ix, iy)], factors->unknown[cell(jx, jy)]);
           entries.emplace_back(high, low, -c);
         }
     };

@@ -8,8 +8,8 @@ namespace tribodraw
   namespace
   {
     // Part of its couplings that a dropped node must have to kept nodes, directly or by way of dropped neighbours, and
-    // the least ratio of the neighbour's onward coupling to that between the two for this way to count. Of 0.1 to 0.5 and
-    // 0.02 to 0.3 these take the fewest iterations, from no contact to percolation.
+    // the least ratio of the neighbour's onward coupling to that between the two for this way to count. Of 0.1 to 0.5
+    // and 0.02 to 0.3 these take the fewest iterations, from no contact to percolation.
     constexpr double least_seen = 0.5, least_onward = 0.3;
   } // namespace
 
@@ -98,8 +98,7 @@ namespace tribodraw
       return true;
     mark_kept_neighbours(i);
     for (int e = m.begin[i]; e < m.begin[i + 1] && seen < needed; ++e)
-      if (!kept(m.column[e]) && m.coupling[e] > 0
-          && coupling_to_marked(i, m.column[e]) >= least_onward * m.coupling[e])
+      if (!kept(m.column[e]) && m.coupling[e] > 0 && coupling_to_marked(i, m.column[e]) >= least_onward * m.coupling[e])
         seen += m.coupling[e];
     return seen >= needed;
   }
@@ -158,7 +157,8 @@ namespace tribodraw
               if (seen_from[m.column[f]] == i && m.coupling[f] > 0)
                 weight[place[m.column[f]]] += m.coupling[e] * m.coupling[f] / onward;
           }
-        const double sum = std::accumulate(weight.begin() + static_cast<std::ptrdiff_t>(start), weight.end(), m.ground[i]);
+        const double sum
+            = std::accumulate(weight.begin() + static_cast<std::ptrdiff_t>(start), weight.end(), m.ground[i]);
         for (std::size_t e = start; e < weight.size(); ++e)
           weight[e] /= sum;
       }

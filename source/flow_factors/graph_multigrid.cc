@@ -9,15 +9,16 @@
 
 namespace tribodraw
 {
+  template <class Real>
   struct GraphMultigrid::Level
   {
     // Couplings; in each row those to earlier nodes stand first, up to `middle`
-    std::vector<int>   begin, middle, column;
-    std::vector<float> coupling, inverse_diagonal;
+    std::vector<int>  begin, middle, column;
+    std::vector<Real> coupling, diagonal, inverse_diagonal;
     // Interpolation
-    std::vector<int>   p_begin, p_column;
-    std::vector<float> p_weight;
-    int                n_coarse;
+    std::vector<int>  p_begin, p_column;
+    std::vector<Real> p_weight;
+    int               n_coarse;
 
     Level(const GraphMatrix &m, const GraphCoarsening &coarsening);
     int
@@ -28,9 +29,9 @@ namespace tribodraw
 
     template <int n>
     void
-    relax(const int i, const int end, const float *rhs, float *x) const
+    relax(const int i, const int end, const Real *rhs, Real *x) const
     {
-      float s[n];
+      Real s[n];
       for (int r = 0; r < n; ++r)
         s[r] = rhs[i * n + r];
       for (int e = begin[i]; e < end; ++e)
@@ -39,9 +40,58 @@ namespace tribodraw
       for (int r = 0; r < n; ++r)
         x[i * n + r] = s[r] * inverse_diagonal[i];
     }
+
+    // Forward from zero: only earlier nodes count, and only later ones leave a residual.
+    template <int n, class CoarseReal>
+    void
+    relax_and_restrict(const Real *rhs, Real *x, CoarseReal *coarse_rhs) const
+    {
+      for (int i = 0; i < size(); ++i)
+        relax<n>(i, middle[i], rhs, x);
+      for (int i = 0; i < size(); ++i)
+        {
+          Real residual[n] = {};
+          for (int e = middle[i]; e < begin[i + 1]; ++e)
+            for (int r = 0; r < n; ++r)
+              residual[r] += coupling[e] * x[column[e] * n + r];
+          for (int e = p_begin[i]; e < p_begin[i + 1]; ++e)
+            for (int r = 0; r < n; ++r)
+              coarse_rhs[p_column[e] * n + r] += p_weight[e] * residual[r];
+        }
+    }
+
+    template <int n, class CoarseReal>
+    void
+    correct_and_relax(const Real *rhs, Real *x, const CoarseReal *coarse_x) const
+    {
+      for (int i = 0; i < size(); ++i)
+        for (int e = p_begin[i]; e < p_begin[i + 1]; ++e)
+          for (int r = 0; r < n; ++r)
+            x[i * n + r] += p_weight[e] * static_cast<Real>(coarse_x[p_column[e] * n + r]);
+      for (int i = size() - 1; i >= 0; --i)
+        relax<n>(i, begin[i + 1], rhs, x);
+    }
+
+    template <int n>
+    void
+    subtract_image(const Real *x, Real *rhs) const
+    {
+      for (int i = 0; i < size(); ++i)
+        {
+          Real s[n];
+          for (int r = 0; r < n; ++r)
+            s[r] = rhs[i * n + r] - diagonal[i] * x[i * n + r];
+          for (int e = begin[i]; e < begin[i + 1]; ++e)
+            for (int r = 0; r < n; ++r)
+              s[r] += coupling[e] * x[column[e] * n + r];
+          for (int r = 0; r < n; ++r)
+            rhs[i * n + r] = s[r];
+        }
+    }
   };
 
-  GraphMultigrid::Level::Level(const GraphMatrix &m, const GraphCoarsening &coarsening)
+  template <class Real>
+  GraphMultigrid::Level<Real>::Level(const GraphMatrix &m, const GraphCoarsening &coarsening)
       : begin(m.begin), column(m.column.size()), coupling(m.column.size()), p_begin(coarsening.begin),
         p_column(coarsening.column), p_weight(coarsening.weight.begin(), coarsening.weight.end()),
         n_coarse(coarsening.n_coarse)
@@ -56,14 +106,15 @@ namespace tribodraw
             if ((m.column[e] < i) == earlier)
               {
                 column[out]     = m.column[e];
-                coupling[out++] = static_cast<float>(m.coupling[e]);
+                coupling[out++] = static_cast<Real>(m.coupling[e]);
               }
         };
         copy(true);
         middle.push_back(out);
         copy(false);
         const double d = m.diagonal(i);
-        inverse_diagonal.push_back(d > 0 ? static_cast<float>(1 / d) : 0.f);
+        inverse_diagonal.push_back(d > 0 ? static_cast<Real>(1 / d) : Real(0));
+        diagonal.push_back(static_cast<Real>(d));
       }
   }
 
@@ -114,7 +165,10 @@ namespace tribodraw
         const GraphCoarsening coarsening(matrix, spacing);
         if (coarsening.n_coarse > least_reduction * matrix.size())
           break;
-        levels.push_back(std::make_unique<Level>(matrix, coarsening));
+        if (!finest)
+          finest = std::make_unique<Level<float>>(matrix, coarsening);
+        else
+          levels.push_back(std::make_unique<Level<double>>(matrix, coarsening));
         matrix = coarsening.coarse_matrix();
         spacing *= 2;
       }
@@ -125,48 +179,64 @@ namespace tribodraw
 
   template <int n>
   void
-  GraphMultigrid::cycle_at(const std::size_t l, const float *rhs, float *x) const
+  GraphMultigrid::solve_coarsest(const double *rhs, double *x) const
   {
-    using Values = Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, n, n == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
+    using Values            = Eigen::Matrix<double, Eigen::Dynamic, n, n == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    const Eigen::MatrixXd b = Eigen::Map<const Values>(rhs, coarsest->n, n);
+    Eigen::Map<Values>(x, coarsest->n, n) = coarsest->ldlt.solve(b);
+  }
+
+  template <int n>
+  void
+  GraphMultigrid::cycle_at(const std::size_t l, const double *rhs, double *x) const
+  {
     if (l == levels.size())
       {
-        const Eigen::MatrixXd b
-            = Eigen::Map<const typename Values::PlainObject>(rhs, coarsest->n, n).template cast<double>();
-        Values(x, coarsest->n, n) = coarsest->ldlt.solve(b).template cast<float>();
+        solve_coarsest<n>(rhs, x);
         return;
       }
-    const Level       &level = *levels[l];
-    std::vector<float> coarse_rhs(static_cast<std::size_t>(level.n_coarse) * n, 0.f), coarse_x(coarse_rhs.size());
-    // Forward from zero: only earlier nodes count, and only later ones leave a residual.
-    for (int i = 0; i < level.size(); ++i)
-      level.relax<n>(i, level.middle[i], rhs, x);
-    for (int i = 0; i < level.size(); ++i)
-      {
-        float residual[n] = {};
-        for (int e = level.middle[i]; e < level.begin[i + 1]; ++e)
-          for (int r = 0; r < n; ++r)
-            residual[r] += level.coupling[e] * x[level.column[e] * n + r];
-        for (int e = level.p_begin[i]; e < level.p_begin[i + 1]; ++e)
-          for (int r = 0; r < n; ++r)
-            coarse_rhs[level.p_column[e] * n + r] += level.p_weight[e] * residual[r];
-      }
+    const Level<double> &level = *levels[l];
+    std::vector<double>  coarse_rhs(static_cast<std::size_t>(level.n_coarse) * n, 0.), coarse_x(coarse_rhs.size());
+    level.template relax_and_restrict<n>(rhs, x, coarse_rhs.data());
     cycle_at<n>(l + 1, coarse_rhs.data(), coarse_x.data());
-    for (int i = 0; i < level.size(); ++i)
-      for (int e = level.p_begin[i]; e < level.p_begin[i + 1]; ++e)
-        for (int r = 0; r < n; ++r)
-          x[i * n + r] += level.p_weight[e] * coarse_x[level.p_column[e] * n + r];
-    for (int i = level.size() - 1; i >= 0; --i)
-      level.relax<n>(i, level.begin[i + 1], rhs, x);
+    if (l + 1 < levels.size())
+      {
+        // W-cycle: once more for what is left
+        levels[l + 1]->template subtract_image<n>(coarse_x.data(), coarse_rhs.data());
+        std::vector<double> more(coarse_x.size());
+        cycle_at<n>(l + 1, coarse_rhs.data(), more.data());
+        for (std::size_t i = 0; i < more.size(); ++i)
+          coarse_x[i] += more[i];
+      }
+    level.template correct_and_relax<n>(rhs, x, coarse_x.data());
+  }
+
+  template <int n>
+  void
+  GraphMultigrid::cycle_from_finest(const float *rhs, float *x) const
+  {
+    if (!finest)
+      {
+        const std::vector<double> b(rhs, rhs + static_cast<std::size_t>(coarsest->n) * n);
+        std::vector<double>       solution(b.size());
+        solve_coarsest<n>(b.data(), solution.data());
+        std::copy(solution.begin(), solution.end(), x);
+        return;
+      }
+    std::vector<double> coarse_rhs(static_cast<std::size_t>(finest->n_coarse) * n, 0.), coarse_x(coarse_rhs.size());
+    finest->template relax_and_restrict<n>(rhs, x, coarse_rhs.data());
+    cycle_at<n>(0, coarse_rhs.data(), coarse_x.data());
+    finest->template correct_and_relax<n>(rhs, x, coarse_x.data());
   }
 
   void
   GraphMultigrid::cycle(const int n, const float *rhs, float *x) const
   {
     if (n == 1)
-      cycle_at<1>(0, rhs, x);
+      cycle_from_finest<1>(rhs, x);
     else if (n == 2)
-      cycle_at<2>(0, rhs, x);
+      cycle_from_finest<2>(rhs, x);
     else
-      cycle_at<4>(0, rhs, x);
+      cycle_from_finest<4>(rhs, x);
   }
 } // namespace tribodraw

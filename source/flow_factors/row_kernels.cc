@@ -3,9 +3,9 @@
 // One version of each loop for every common width of vector registers; the program chooses at its start. The
 // resolvers run before a sanitizer is ready.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#  define TRIBODRAW_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))
+#define TRIBODRAW_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
-#  define TRIBODRAW_VECTORISED
+#define TRIBODRAW_VECTORISED
 #endif
 
 namespace tribodraw::row_kernels

@@ -23,8 +23,8 @@ namespace tribodraw::row_kernels
   /// e += weight * (sum of the neighbours in the row), where the colour is set.
   void interpolate_in_row(int n, float *e, const float *kx, const float *weight, const float *colour, float *spare);
   /// e += weight * (sum of the neighbours in the column).
-  void interpolate_in_column(int n, float *e, const float *below, const float *above, const float *ky,
-                             const float *ky_above, const float *weight);
+  void   interpolate_in_column(int n, float *e, const float *below, const float *above, const float *ky,
+                               const float *ky_above, const float *weight);
   void   add(int n, float *x, const float *e);
   double dot(int n, const double *r, const float *z);
   /// p = z + beta p

@@ -39,9 +39,9 @@ namespace tribodraw
 
   /// The five-point system of a local Reynolds cell: conductances of the faces between pixels, 0 where nothing flows.
   ///
-  /// x_row(iy)[ix] belongs to the face below pixel (ix, iy) in x, y_row(iy)[ix] to the one below it in y; the indices nx
-  /// and ny are the faces at the upper ends of the map, on a periodic map the same faces as 0. On another map the faces
-  /// at the ends lead to a pressure of zero.
+  /// x_row(iy)[ix] belongs to the face below pixel (ix, iy) in x, y_row(iy)[ix] to the one below it in y; the indices
+  /// nx and ny are the faces at the upper ends of the map, on a periodic map the same faces as 0. On another map the
+  /// faces at the ends lead to a pressure of zero.
   class CellConductances
   {
   public:

@@ -102,10 +102,10 @@ namespace tribodraw
     std::array<bool, 2>         conducting{};
     std::unique_ptr<CellSolver> solver;
 
-    void   set_conductances(const std::vector<int> &region, CellDiscretisation discretisation);
-    void   add_drive(const Drive &drive, int axis, int row, double *flux) const;
-    void   evaluate(Fields &fields) const;
-    void   solve_group(const Drive *drives, int n, Solution *solutions) const;
+    void                set_conductances(const std::vector<int> &region, CellDiscretisation discretisation);
+    void                add_drive(const Drive &drive, int axis, int row, double *flux) const;
+    void                evaluate(Fields &fields) const;
+    void                solve_group(const Drive *drives, int n, Solution *solutions) const;
     std::vector<double> flux_through_sections(const Solution &solution, int axis) const;
   };
 } // namespace tribodraw

@@ -34,7 +34,7 @@ namespace tribodraw
   private:
     class Cycle;
 
-    const CellConductances          &k;
+    const CellConductances         &k;
     std::unique_ptr<CellCoarsening> coarsening;
     std::unique_ptr<GraphMultigrid> coarse;
     // Single precision copies, in the layout of the conductances: conductances and inverse of their sum

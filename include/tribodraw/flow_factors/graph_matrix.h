@@ -5,8 +5,8 @@
 
 namespace tribodraw
 {
-  /// Symmetric matrix of a network of conductances: what couples the nodes to each other and to the ground. The diagonal
-  /// is the sum of both and never stored, as its small difference to the sum of the couplings would be lost in
+  /// Symmetric matrix of a network of conductances: what couples the nodes to each other and to the ground. The
+  /// diagonal is the sum of both and never stored, as its small difference to the sum of the couplings would be lost in
   /// round-off: a pool behind a narrow neck would lose its connection.
   struct GraphMatrix
   {
