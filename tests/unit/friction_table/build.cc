@@ -89,10 +89,13 @@ TEST(FrictionTableBuild, RoughToolPloughs)
       EXPECT_LT(c, 1.5 * 0.798 * rms); // at small loads few summits of this small map touch: scatter
     }
   const double alpha = table.film(0.5 * um).contact_fraction;
-  EXPECT_NEAR(table.solid_shear(0.5 * um, 20., 20. / alpha, 0.1),
-              alpha * pair.boundary_friction.layer_shear(20. / alpha, 1e9)
-                  + 20. * table.ploughing_coefficient.value({ 20., 0.1 }),
-              1e-9);
+  // Pressures (T12, T13): the table and the definition agree, with and without lubricant pressure.
+  const double k = table.shear_strength.value({ 0.1 });
+  for (const double p_lubricant : { 0., 6. })
+    EXPECT_NEAR(table.solid_shear(0.5 * um, 20., plateau_pressure(20., alpha, p_lubricant), 0.1),
+                pair.boundary_friction.shear_per_nominal_area(alpha, 20., p_lubricant, k,
+                                                              table.ploughing_coefficient.value({ 20., 0.1 })),
+                1e-9);
   // The film counts the tool's roughness (T15): larger than with the smooth tool at the same cut height.
   EXPECT_GT(table.film(0.2 * um).h_avg, 1.0001 * HeightDistribution(pair.sheet).mean_gap(0.2 * um));
 }
