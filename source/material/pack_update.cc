@@ -176,7 +176,7 @@ namespace tribodraw
           // The error left by so small a full step is its square, and the derivatives are exact to its size.
           const Pack length = square(dm) + square(da) + square(db)
                               + 1e-2 * goal * square(d_flow / pack::select(s.active, s.flow, Pack(1.)));
-          const PackMask last = s.active && !cut && length < square(5e-8) * goal;
+          const PackMask last = s.active && !cut && length < square(1e-8) * goal;
           s.stress.m          = s.stress.m + step * dm;
           s.stress.a          = s.stress.a + step * da;
           s.stress.b          = s.stress.b + step * db;

@@ -93,6 +93,10 @@ namespace tribodraw
 
     MaterialPointTest::MaterialPointTest(Parameters &parameters)
     {
+      {
+        const auto scope = parameters.top_section("Sheet material");
+        material         = std::make_shared<SheetMaterial>(SheetMaterial::read(parameters));
+      }
       read_cases(parameters);
       const bool documentation = parameters.documentation_mode();
       const bool with_path     = std::count(cases.begin(), cases.end(), strain_path) > 0;
@@ -124,8 +128,6 @@ namespace tribodraw
         }
       else
         parameters.mark_unselected("Strain path file");
-      const auto scope = parameters.top_section("Sheet material");
-      material         = std::make_shared<SheetMaterial>(SheetMaterial::read(parameters));
     }
 
     std::string
