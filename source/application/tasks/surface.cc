@@ -29,13 +29,11 @@ namespace tribodraw
           make             = read_surface(parameters);
           settings         = read_evaluation(parameters);
         }
-        const auto               scope   = parameters.section("Output");
-        std::vector<std::string> formats = surface_format_names();
-        formats.insert(formats.begin(), "none");
-        format = parameters.choice(
-            "Surface format", formats,
-            "Format in which the processed map is written as surface_map.* in addition to surface.gsf.",
-            Default{ "none", "surface.gsf is enough for this program" });
+        const auto scope = parameters.section("Output");
+        if (parameters.has("Surface format"))
+          format = parameters.choice("Surface format", surface_format_names(),
+                                     "Format in which the processed map is written as surface_map.* in addition to "
+                                     "surface.gsf. If absent, surface.gsf is all.");
       }
 
       std::string
@@ -64,7 +62,7 @@ namespace tribodraw
         write_distribution(map, context);
         write_voids(evaluation.voids, context.file("closed_voids.csv"));
         write_gsf(map, context.file("surface.gsf"));
-        if (format != "none" && format != "gsf")
+        if (!format.empty())
           write_surface_file(map, context.file("surface_map." + format.substr(0, 3)), format);
       }
 
@@ -125,7 +123,7 @@ namespace tribodraw
 
       std::function<HeightMap()> make;
       EvaluationSettings         settings;
-      std::string                format;
+      std::string                format; ///< empty: surface.gsf only
     };
   } // namespace
 
