@@ -1,6 +1,11 @@
 #include "paper_material.h"
 
+#include <tribodraw/base/errors.h>
+
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
 
 using namespace tribodraw;
 
@@ -110,4 +115,122 @@ TEST(Swift, values_and_slopes)
   EXPECT_NEAR(law->flow_stress(0.1, 1).value, 565.32 * std::exp(0.2589 * std::log(0.107117)), 1e-10);
   EXPECT_NEAR(law->flow_stress(1 - 0.007117, 5).value, 565.32, 1e-10); // K where strain + eps0 = 1
   expect_slopes(*law, { 0., 1. });
+}
+
+// AA6022-T4 of Tian et al. (2016): 436 - 222 exp(-6.75 eps).
+TEST(Voce, values_and_slopes)
+{
+  const auto law = paper::make<HardeningLaw>(
+      "Voce", "set Initial stress = 214 MPa\nset Saturation stress = 436 MPa\nset Saturation rate = 6.75\n");
+  EXPECT_NEAR(law->flow_stress(0, 1).value, 214, 1e-12);
+  EXPECT_NEAR(law->flow_stress(0.1, 1).value, 436 - 222 * std::exp(-0.675), 1e-12);
+  EXPECT_NEAR(law->flow_stress(0, 1).strain_slope, 222 * 6.75, 1e-10);
+  expect_slopes(*law, { 0., 1. });
+  EXPECT_THROW(paper::make<HardeningLaw>("Voce", "set Initial stress = 500 MPa\nset Saturation stress = 436 MPa\n"
+                                                 "set Saturation rate = 6.75\n"),
+               InputError);
+}
+
+TEST(SwiftVoce, is_the_weighted_sum)
+{
+  const auto mixed = paper::hardening("Swift-Voce"), voce = paper::hardening("Voce");
+  const auto swift
+      = paper::make<HardeningLaw>("Swift", "set Strength coefficient = 498.8 MPa\nset Initial strain = 0.0089\n"
+                                           "set Hardening exponent = 0.285\n");
+  for (double strain : { 0., 0.01, 0.3, 1. })
+    {
+      const auto m = mixed->flow_stress(strain, 0), s = swift->flow_stress(strain, 0), v = voce->flow_stress(strain, 0);
+      EXPECT_NEAR(m.value, 0.4 * s.value + 0.6 * v.value, 1e-11);
+      EXPECT_NEAR(m.strain_slope, 0.4 * s.strain_slope + 0.6 * v.strain_slope, 1e-9);
+    }
+}
+
+namespace
+{
+  std::unique_ptr<HardeningLaw>
+  from_table(const std::string &rows, const std::string &more = "")
+  {
+    const auto file = std::filesystem::temp_directory_path()
+                      / ("tribodraw_flow_" + std::to_string(std::hash<std::string>()(rows)) + ".csv");
+    std::ofstream(file) << rows;
+    std::unique_ptr<HardeningLaw> law;
+    std::string                   message;
+    try
+      {
+        law = paper::make<HardeningLaw>("tabulated", "set Source = file\nset File = " + file.string() + "\n" + more);
+      }
+    catch (const InputError &e)
+      {
+        message = e.what();
+      }
+    std::filesystem::remove(file);
+    if (!law)
+      throw InputError(message);
+    return law;
+  }
+
+  std::string
+  table_message(const std::string &rows)
+  {
+    try
+      {
+        from_table(rows);
+      }
+    catch (const InputError &e)
+      {
+        return e.what();
+      }
+    return "";
+  }
+} // namespace
+
+TEST(Tabulated, goes_through_the_points_and_never_overshoots)
+{
+  const auto law = paper::make<HardeningLaw>("tabulated", "set Source = list\nset Plastic strains = 0, 0.1, 0.2, 0.5\n"
+                                                          "set Flow stresses = 100, 200, 200, 230 MPa\n");
+  const double strain[] = { 0, .1, .2, .5 }, stress[] = { 100, 200, 200, 230 };
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(law->flow_stress(strain[i], 0).value, stress[i], 1e-11);
+  EXPECT_EQ(law->flow_stress(.15, 0).value, 200.); // flat between equal points
+  double last = 0;
+  for (double e = 0; e < 1; e += 1e-3)
+    {
+      EXPECT_GE(law->flow_stress(e, 0).value, last);
+      last = law->flow_stress(e, 0).value;
+    }
+  // Beyond the last point straight on with the slope of the last interval: 30 MPa / 0.3.
+  EXPECT_NEAR(law->flow_stress(1.5, 0).value, 230 + 100 * 1., 1e-10);
+  // Between the points and between the joints of the pieces the slope is the derivative.
+  for (double e : { 0.03, 0.12, 0.3, 0.7 })
+    EXPECT_NEAR((law->flow_stress(e + 1e-6, 0).value - law->flow_stress(e - 1e-6, 0).value) / 2e-6,
+                law->flow_stress(e, 0).strain_slope, 1e-4);
+}
+
+TEST(Tabulated, rates)
+{
+  const auto law = from_table("rate_1_per_s,plastic_strain,flow_stress_mpa\n0.01,0,100\n0.01,1,200\n"
+                              "1,0,120\n1,1,240\n");
+  EXPECT_NEAR(law->flow_stress(.5, 0.01).value, 150, 1e-11);
+  EXPECT_NEAR(law->flow_stress(.5, 1).value, 180, 1e-11);
+  EXPECT_NEAR(law->flow_stress(.5, 0.1).value, 165, 1e-11); // half-way in the logarithm
+  EXPECT_NEAR(law->flow_stress(.5, 0.1).rate_slope, 30 / std::log(100.) / 0.1, 1e-10);
+  EXPECT_NEAR(law->flow_stress(.5, 0).value, 150, 1e-11); // constant outside
+  EXPECT_NEAR(law->flow_stress(.5, 50).value, 180, 1e-11);
+  EXPECT_EQ(law->flow_stress(.5, 50).rate_slope, 0.);
+}
+
+TEST(Tabulated, wrong_tables_are_refused_with_the_line)
+{
+  const std::string head = "plastic_strain,flow_stress_mpa\n";
+  EXPECT_NE(table_message(head + "0,100\n0.1,90\n").find(".csv:3: "), std::string::npos);
+  EXPECT_NE(table_message(head + "0,100\n0.1,90\n").find("falls"), std::string::npos);
+  EXPECT_NO_THROW(from_table(head + "0,100\n0.1,90\n", "set Falling stress = allowed\n"));
+  EXPECT_NE(table_message(head + "0.1,100\n0.2,190\n").find("not 0"), std::string::npos);
+  EXPECT_NE(table_message(head + "0,100\n0,190\n").find("does not rise"), std::string::npos);
+  EXPECT_NE(table_message(head + "0,100\n").find("two points"), std::string::npos);
+  EXPECT_NE(table_message(head + "0,-100\n1,100\n").find("not positive"), std::string::npos);
+  EXPECT_NE(table_message(head + "0,inf\n1,100\n").find("not finite"), std::string::npos);
+  EXPECT_NE(table_message("rate_1_per_s,plastic_strain,flow_stress_mpa\n1,0,100\n1,1,200\n9,0,90\n9,1,300\n")
+                .find("lower strain rate"),
+            std::string::npos);
 }
