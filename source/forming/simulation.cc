@@ -80,7 +80,7 @@ namespace tribodraw
       , process(p)
       , settings(s)
       , material(m)
-      , shell(b.quarter_mesh(), b.thickness, m, b.n_thickness_points)
+      , shell(b.quarter_mesh(), b.thickness, m, b.n_thickness_points, b.lobatto ? Shell::ThicknessPoints::lobatto : Shell::ThicknessPoints::gauss)
       , contact(shell, tools.place(b.thickness), settings.contact)
       , friction(std::move(f))
       , next_increment(s.first_increment)

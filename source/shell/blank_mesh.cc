@@ -95,6 +95,20 @@ namespace tribodraw
     return opposite;
   }
 
+  void
+  BlankMesh::mark_outer_edge()
+  {
+    const auto opposite = opposite_nodes();
+    on_outer_edge.assign(nodes.size(), false);
+    for (std::size_t e = 0; e < triangles.size(); ++e)
+      for (unsigned k = 0; k < 3; ++k)
+        {
+          const unsigned a = triangles[e][k], b = triangles[e][(k + 1) % 3];
+          if (opposite[e][k] < 0 && !(on_x_plane[a] && on_x_plane[b]) && !(on_y_plane[a] && on_y_plane[b]))
+            on_outer_edge[a] = on_outer_edge[b] = true;
+        }
+  }
+
   double
   BlankMesh::smallest_edge() const
   {

@@ -31,6 +31,12 @@ namespace tribodraw
     double   thickness    = 0;
     double   element_size = 0;
     unsigned n_thickness_points = 5;
+    bool     lobatto            = false; ///< rule through the thickness; else Gauss
+
+    std::string                      shape = "rectangle";
+    std::vector<Eigen::Vector2d>     outline;    ///< of the quarter, for a polygon
+    std::vector<SizeField::Zone>     zones;      ///< of smaller elements
+    std::shared_ptr<const BlankMesh> given_mesh; ///< from a file
 
     static Blank read(Parameters &parameters);
     BlankMesh    quarter_mesh() const;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ namespace tribodraw
     /// opposite directions.
     std::vector<std::array<int, 3>> opposite_nodes() const;
 
+    /// Set on_outer_edge: boundary nodes but for those of sides in the planes of symmetry.
+    void mark_outer_edge();
+
     double smallest_edge() const;
     double largest_edge() const;
   };
@@ -37,6 +41,43 @@ namespace tribodraw
   /// A rectangle [0, lx] x [0, ly] (quarter of a 2 lx x 2 ly blank) with n_x x n_y squares, each cut in two with
   /// alternating diagonals (the constant-strain membrane is stiff along one diagonal direction otherwise).
   BlankMesh make_quarter_rectangle(double lx, double ly, unsigned n_x, unsigned n_y);
+
+  /// Wanted edge length of the triangles over the blank [mm].
+  struct SizeField
+  {
+    struct Zone
+    {
+      Eigen::Vector2d low, high; ///< corners of a rectangle along the axes
+      double          size;      ///< inside
+    };
+
+    double            size = 0; ///< far from all zones
+    std::vector<Zone> zones;
+    double            growth = 0.3; ///< of the size per distance from a zone: neighbours differ by about this part
+
+    double at(const Eigen::Vector2d &x) const;
+    double smallest() const;
+  };
+
+  /// Triangles inside a closed polygon with the corners @p outline, counter-clockwise: Delaunay triangulation of points
+  /// on the outline and of a lattice inside, smoothed. @p quarter: sides on x = 0 and y = 0 are planes of symmetry.
+  /// Throws InputError if the outline is no simple polygon or too narrow for the elements.
+  BlankMesh make_outline_mesh(const std::vector<Eigen::Vector2d> &outline, const SizeField &size, bool quarter);
+
+  /// A disc around the origin or its quarter x >= 0, y >= 0.
+  BlankMesh make_disc(double radius, const SizeField &size, bool quarter);
+
+  /// Flat mesh from a Gmsh file (.msh, version 2.2 or 4.1, ASCII). Triangles are taken, quadrangles are cut along their
+  /// shorter diagonal, points and lines are passed over; everything else is refused. All triangles are turned
+  /// counter-clockwise and the plane is moved to z = 0. Boundary sides on x = 0 and y = 0 of a mesh that lies on one
+  /// side of them are planes of symmetry.
+  /// @param length_unit of the coordinates of the file [mm]
+  /// Throws InputError with the line for anything that does not fit.
+  BlankMesh read_gmsh(const std::filesystem::path &file, double length_unit = 1);
+
+  /// Points on an arc at the distance of the local size, both ends included; angles in rad, from < to.
+  std::vector<Eigen::Vector2d> circular_arc(const Eigen::Vector2d &centre, double radius, double from, double to,
+                                            const SizeField &size);
 
   /// Grid of a surface given by a mapping of the unit square, alternating diagonals; for benchmarks.
   BlankMesh make_mapped_grid(unsigned n_u, unsigned n_v,
