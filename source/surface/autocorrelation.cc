@@ -123,8 +123,12 @@ namespace tribodraw
   double
   Autocorrelation::interpolate(double lag_x, double lag_y) const
   {
-    const double bx = std::min(std::floor(lag_x), static_cast<double>(mx) - 1.),
-                 by = std::clamp(std::floor(lag_y), -static_cast<double>(my), static_cast<double>(my) - 1.);
+    // Lags at the edge of the domain may lie beyond it by rounding; maps of two rows have no lag along y at all.
+    const double far_x = static_cast<double>(mx), far_y = static_cast<double>(my);
+    lag_x           = std::min(lag_x, far_x);
+    lag_y           = std::clamp(lag_y, -far_y, far_y);
+    const double bx = std::min(std::floor(lag_x), std::max(far_x - 1., 0.)),
+                 by = std::clamp(std::floor(lag_y), -far_y, std::max(far_y - 1., -far_y));
     const double tx = lag_x - bx, ty = lag_y - by;
     const auto   ix = static_cast<std::ptrdiff_t>(bx), iy = static_cast<std::ptrdiff_t>(by);
     const auto   row

@@ -539,6 +539,23 @@ TEST(Evaluation, HasAllRowsWithUnits)
   EXPECT_THROW(evaluate_surface(HeightMap(), settings), InputError);
 }
 
+TEST(Evaluation, SmallestMapsAreEvaluatedAsFarAsTheyGo)
+{
+  // Two rows or columns have no lag across them: no Str, no slopes, but heights and material ratio.
+  for (const bool periodic : { false, true })
+    for (const auto &[nx, ny] : { std::pair<std::size_t, std::size_t>(2, 2), { 9, 2 }, { 2, 9 }, { 3, 3 }, { 6, 40 } })
+      {
+        NormalDeviates deviates(nx);
+        const auto     e
+            = evaluate_surface(map_of(nx, ny, 1e-3, 1e-3, periodic, [&](double, double) { return deviates(); }), {});
+        EXPECT_GT(e.value("Sq"), 0.) << nx << ' ' << ny;
+        EXPECT_TRUE(std::isnan(e.value("Sdq")));
+        EXPECT_TRUE(ny > 2 || std::isnan(e.value("autocorrelation_length_y")));
+        for (const auto &row : e.rows)
+          EXPECT_TRUE(std::isfinite(row.value)) << row.parameter << ' ' << nx << ' ' << ny;
+      }
+}
+
 TEST(Evaluation, SettingsAreReadAndNonsenseIsRefused)
 {
   auto parameters = Parameters::from_text("subsection Evaluation\nset Smr height = 1 um\nset Profile direction = x\n"
