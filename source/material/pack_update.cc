@@ -139,8 +139,10 @@ namespace tribodraw
     TRIBODRAW_INLINE inline void
     Solver::iterate(State &s) const
     {
-      constexpr unsigned max_iterations = 15;
-      const Pack         idt            = 1 / options.time_increment;
+      constexpr unsigned max_iterations = 40;
+      MohrStress<Pack>   base = s.stress, step = s.stress; // start and full length of the step under way
+      Pack               base_flow = s.flow, step_flow = 0., base_error = 1e300, length = 1.;
+      const Pack         idt = 1 / options.time_increment;
       const double       cm = 1 / mean_modulus, ca = 1 / shear_modulus;
       for (unsigned iteration = 0; iteration < max_iterations; ++iteration)
         {
@@ -162,25 +164,45 @@ namespace tribodraw
           if (!pack::any(s.active))
             return;
 
+          // A step must reduce the error, or is halved.
+          const Pack     error    = size / goal;
+          const PackMask too_long = s.active && !(error < (1 - 1e-4) * base_error);
+          length                  = pack::select(too_long, 0.5 * length, Pack(1.));
+          // Round-off may hide the last digit: then the start of the step is the solution.
+          const PackMask settled = too_long && base_error < square(10 * ReturnMapping::tolerance);
+          s.stress   = { pack::select(settled, base.m, s.stress.m), pack::select(settled, base.a, s.stress.a),
+                         pack::select(settled, base.b, s.stress.b) };
+          s.flow     = pack::select(settled, base_flow, s.flow);
+          s.active   = s.active && !settled;
+          s.failed   = s.failed || (s.active && too_long && length < 0.02);
+          s.active   = s.active && !s.failed;
+          base_error = pack::select(too_long, base_error, error);
+          base       = { pack::select(too_long, base.m, s.stress.m), pack::select(too_long, base.a, s.stress.a),
+                         pack::select(too_long, base.b, s.stress.b) };
+          base_flow  = pack::select(too_long, base_flow, s.flow);
+
           const SymmetricPack X     = stiffness(mean_modulus, shear_modulus, s.flow, s.d);
           const auto          Xr    = product(X, rm, ra, rb);
           const auto          Xn    = product(X, s.d.m, s.d.a, s.d.b);
           const Pack          slope = s.f.strain_slope + s.f.rate_slope * idt;
           const Pack          d_flow
               = -(s.d.m * Xr.m + s.d.a * Xr.a + s.d.b * Xr.b) / (s.d.m * Xn.m + s.d.a * Xn.a + s.d.b * Xn.b + slope);
-          // The flow stays positive: at most 80 per cent down at a time.
-          const PackMask cut  = d_flow < -0.8 * s.flow;
+          // The flow stays positive: at most 80 per cent down at a time. Such a step need not reduce the error.
+          const PackMask cut  = !too_long && d_flow < -0.8 * s.flow;
           const Pack     full = pack::select(cut, -0.8 * s.flow / pack::select(cut, d_flow, Pack(-1.)), Pack(1.));
-          const Pack     step = pack::select(s.active, full, Pack(0.));
-          const Pack     dm = -Xr.m - d_flow * Xn.m, da = -Xr.a - d_flow * Xn.a, db = -Xr.b - d_flow * Xn.b;
+          base_error          = pack::select(cut, Pack(1e300), base_error);
+          step                = { pack::select(too_long, step.m, full * (-Xr.m - d_flow * Xn.m)),
+                                  pack::select(too_long, step.a, full * (-Xr.a - d_flow * Xn.a)),
+                                  pack::select(too_long, step.b, full * (-Xr.b - d_flow * Xn.b)) };
+          step_flow           = pack::select(too_long, step_flow, full * d_flow);
           // The error left by so small a full step is its square, and the derivatives are exact to its size.
-          const Pack length = square(dm) + square(da) + square(db)
-                              + 1e-2 * goal * square(d_flow / pack::select(s.active, s.flow, Pack(1.)));
-          const PackMask last = s.active && !cut && length < square(1e-8) * goal;
-          s.stress.m          = s.stress.m + step * dm;
-          s.stress.a          = s.stress.a + step * da;
-          s.stress.b          = s.stress.b + step * db;
-          s.flow              = s.flow + step * d_flow;
+          const Pack change = square(step.m) + square(step.a) + square(step.b)
+                              + 1e-2 * goal * square(step_flow / pack::select(s.active, s.flow, Pack(1.)));
+          const PackMask last = s.active && !cut && !too_long && change < square(1e-8) * goal;
+          s.stress.m          = pack::select(s.active, base.m + length * step.m, s.stress.m);
+          s.stress.a          = pack::select(s.active, base.a + length * step.a, s.stress.a);
+          s.stress.b          = pack::select(s.active, base.b + length * step.b, s.stress.b);
+          s.flow              = pack::select(s.active, base_flow + length * step_flow, s.flow);
           s.active            = s.active && !last;
           if (!pack::any(s.active))
             return;
