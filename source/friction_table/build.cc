@@ -66,12 +66,23 @@ namespace tribodraw
       return result;
     }
 
+    /// Combined Sq of both surfaces, undeformed.
+    double
+    combined_sq(const HeightDistribution &sheet, const HeightMap &tool)
+    {
+      double sum = sheet.sq() * sheet.sq();
+      if (tool.size() > 0)
+        sum += std::pow(HeightDistribution(tool).sq(), 2);
+      return std::sqrt(sum);
+    }
+
     class Build
     {
     public:
       Build(const PairDescription &p, const std::function<void(double)> &report_progress)
-          : pair(p), heights(p.sheet), film_heights(sum_of_heights(p.sheet, p.tool)),
-            law(p.flattening->with_spacing_of(p.sheet)), progress(report_progress)
+          : pair(p), axes(p.axes), heights(p.sheet), film_heights(sum_of_heights(p.sheet, p.tool)),
+            reference_sq(combined_sq(heights, p.tool)), law(p.flattening->with_spacing_of(p.sheet)),
+            progress(report_progress)
       {
         if (p.flattening->needs_spacing())
           log::info("Asperity half spacing counted on the sheet: " + units::format(law.half_spacing(), "um") + ".");
@@ -80,6 +91,7 @@ namespace tribodraw
       FrictionTable
       run()
       {
+        add_points();
         make_shear_strength();
         make_cut_heights();
         make_curves();
@@ -95,8 +107,10 @@ namespace tribodraw
 
     private:
       const PairDescription            &pair;
+      FrictionTableAxes                 axes;         // with the points that were added
       const HeightDistribution          heights;      // of the sheet
       const HeightDistribution          film_heights; // of sheet + tool: the gap
+      const double                      reference_sq;
       const Flattening                  law;
       const std::function<void(double)> progress;
       FrictionTable                     table;
@@ -121,12 +135,93 @@ namespace tribodraw
       Axis
       pressure_axis(const AxisScale scale) const
       {
-        return { pair.axes.pressures, scale };
+        return { axes.pressures, scale };
       }
       Axis
       strain_axis() const
       {
-        return { pair.axes.strains, AxisScale::linear };
+        return { axes.strains, AxisScale::linear };
+      }
+
+      /// Difference of two states as the interpolation error counts it.
+      double
+      difference(const double s, const double other) const
+      {
+        return std::max(std::abs(heights.contact_fraction(s) - heights.contact_fraction(other)),
+                        std::abs(film_heights.mean_gap(s) - film_heights.mean_gap(other)) / reference_sq);
+      }
+
+      /// Cut heights at all strains for each pressure.
+      std::vector<std::vector<double>>
+      cut_heights(const std::vector<double> &pressures, const std::vector<double> &strains) const
+      {
+        std::vector<std::vector<double>> result(pressures.size());
+        parallel::for_range(pressures.size(), 1, [&](const std::size_t begin, const std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i)
+            result[i] = flattening().monotone_cut_heights(heights, *pair.hardening, pressures[i], strains);
+        });
+        return result;
+      }
+
+      /// Between two points of an axis the table interpolates linearly (pressures: in their logarithm), so the error is
+      /// greatest about halfway. Points are added there until it is small enough.
+      void
+      add_points()
+      {
+        constexpr unsigned int max_rounds = 16; // the film falls steeply where straining begins
+        double                 error      = 0;
+        for (unsigned int round = 0; round <= max_rounds; ++round)
+          {
+            const auto         &p = axes.pressures, &e = axes.strains;
+            std::vector<double> p_mid, e_mid;
+            for (std::size_t i = 0; i + 1 < p.size(); ++i)
+              p_mid.push_back(std::sqrt(p[i] * p[i + 1]));
+            for (std::size_t j = 0; j + 1 < e.size(); ++j)
+              e_mid.push_back(0.5 * (e[j] + e[j + 1]));
+            std::vector<double> e_all = e;
+            e_all.insert(e_all.end(), e_mid.begin(), e_mid.end());
+            std::sort(e_all.begin(), e_all.end()); // the points themselves at even places
+            const auto          s = cut_heights(p, e_all), between = cut_heights(p_mid, e_all);
+            std::vector<double> p_error(p_mid.size(), 0.), e_error(e_mid.size(), 0.);
+            for (std::size_t i = 0; i < p_mid.size(); ++i)
+              for (std::size_t j = 0; j < e_all.size(); j += 2)
+                p_error[i] = std::max(p_error[i], difference(between[i][j], 0.5 * (s[i][j] + s[i + 1][j])));
+            for (std::size_t i = 0; i < p.size(); ++i)
+              for (std::size_t j = 0; j < e_mid.size(); ++j)
+                e_error[j] = std::max(e_error[j], difference(s[i][2 * j + 1], 0.5 * (s[i][2 * j] + s[i][2 * j + 2])));
+            error = std::max(*std::max_element(p_error.begin(), p_error.end()),
+                             *std::max_element(e_error.begin(), e_error.end()));
+            if (error <= axes.interpolation_error || round == max_rounds)
+              break;
+            const std::size_t before = p.size() + e.size();
+            insert(axes.pressures, p_mid, p_error);
+            insert(axes.strains, e_mid, e_error);
+            if (axes.pressures.size() + axes.strains.size() == before)
+              break; // as many as allowed
+          }
+        table.provenance["interpolation_error"] = error;
+        table.provenance["pressures_mpa"]       = axes.pressures;
+        table.provenance["strains"]             = axes.strains;
+        log::info("Friction table: " + std::to_string(axes.pressures.size()) + " pressures, "
+                  + std::to_string(axes.strains.size())
+                  + " strains; halfway between them contact fraction and film (over Sq) are off by at most "
+                  + units::number(std::round(error * 1e5) / 1e5) + ".");
+      }
+
+      /// The middles with the greatest errors, as far as the axis may grow.
+      void
+      insert(std::vector<double> &points, const std::vector<double> &middles, const std::vector<double> &errors) const
+      {
+        std::vector<std::size_t> order;
+        for (std::size_t i = 0; i < middles.size(); ++i)
+          if (errors[i] > axes.interpolation_error)
+            order.push_back(i);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](const std::size_t a, const std::size_t b) { return errors[a] > errors[b]; });
+        for (const std::size_t i : order)
+          if (points.size() < axes.max_points)
+            points.push_back(middles[i]);
+        std::sort(points.begin(), points.end());
       }
 
       void
@@ -134,11 +229,11 @@ namespace tribodraw
       {
         // Hardening is steepest at the start: points spread quadratically.
         const unsigned int  n    = 200;
-        const double        last = pair.axes.strains.back();
+        const double        last = axes.strains.back();
         std::vector<double> eps, k;
         for (unsigned int i = 0; i <= n; ++i)
           eps.push_back(last * i * i / (static_cast<double>(n) * n));
-        eps.insert(eps.end(), pair.axes.strains.begin(), pair.axes.strains.end()); // exact there
+        eps.insert(eps.end(), axes.strains.begin(), axes.strains.end()); // exact there
         std::sort(eps.begin(), eps.end());
         eps.erase(std::unique(eps.begin(), eps.end(), [](double a, double b) { return b - a < 1e-12; }), eps.end());
         for (const double e : eps)
@@ -149,20 +244,16 @@ namespace tribodraw
       void
       make_cut_heights()
       {
-        const auto         &pressures = pair.axes.pressures, &strains = pair.axes.strains;
+        const auto         &pressures = axes.pressures, &strains = axes.strains;
         std::vector<double> monotone(pressures.size() * strains.size()), normal(monotone.size());
-        parallel::for_range(pressures.size(), 1, [&](const std::size_t begin, const std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i)
+        const auto          s = cut_heights(pressures, strains);
+        for (std::size_t i = 0; i < pressures.size(); ++i)
+          for (std::size_t j = 0; j < strains.size(); ++j)
             {
-              const auto s = flattening().monotone_cut_heights(heights, *pair.hardening, pressures[i], strains);
-              for (std::size_t j = 0; j < strains.size(); ++j)
-                {
-                  monotone[i * strains.size() + j] = s[j];
-                  normal[i * strains.size() + j]
-                      = flattening().cut_height_under_load(heights, pressures[i], strength(strains[j]));
-                }
+              monotone[i * strains.size() + j] = s[i][j];
+              normal[i * strains.size() + j]
+                  = flattening().cut_height_under_load(heights, pressures[i], strength(strains[j]));
             }
-        });
         // Neighbouring pressures may end on one pixel, in either order by round-off.
         for (std::size_t i = 1; i < pressures.size(); ++i)
           for (std::size_t j = 0; j < strains.size(); ++j)
@@ -175,23 +266,22 @@ namespace tribodraw
       void
       make_curves()
       {
-        table.sq                 = film_reference();
+        table.sq                 = reference_sq;
         table.initial_cut_height = heights.highest();
         const double lowest      = table.cut_height_monotone.values().back(); // largest pressure and strain
         if (const double alpha = heights.contact_fraction(lowest); alpha > largest_contact_fraction)
           throw InputError(describe_error(
               "The sheet surface is pressed flat at the largest pressure and strain",
               "`Friction table/Pressures` and `/Strains`",
-              "contact fraction " + units::number(alpha) + " at " + units::format(pair.axes.pressures.back(), "MPa")
-                  + " and strain " + units::number(pair.axes.strains.back()),
+              "contact fraction " + units::number(alpha) + " at " + units::format(axes.pressures.back(), "MPa")
+                  + " and strain " + units::number(axes.strains.back()),
               "at most " + units::number(largest_contact_fraction), "Lower the largest pressure or strain."));
         // A little below the lowest state, so that interpolated states stay inside.
         const double margin = 0.05 * (heights.highest() - lowest);
         const double bottom
             = std::max(lowest - margin, heights.cut_height_for_contact_fraction(0.5 * (1. + largest_contact_fraction)));
-        auto &c = table.curves;
-        c.cut_height
-            = spread_cut_heights(heights, std::min(bottom, lowest), heights.highest(), pair.axes.n_curve_points);
+        auto &c      = table.curves;
+        c.cut_height = spread_cut_heights(heights, std::min(bottom, lowest), heights.highest(), axes.n_curve_points);
         for (const double s : c.cut_height)
           {
             c.contact_fraction.push_back(heights.contact_fraction(s));
@@ -199,21 +289,12 @@ namespace tribodraw
           }
       }
 
-      double
-      film_reference() const
-      {
-        double sum = heights.sq() * heights.sq();
-        if (pair.tool.size() > 0)
-          sum += std::pow(HeightDistribution(pair.tool).sq(), 2);
-        return std::sqrt(sum);
-      }
-
       void
       make_flattening()
       {
         std::vector<double> values;
-        for (const double p : pair.axes.pressures)
-          for (const double eps : pair.axes.strains)
+        for (const double p : axes.pressures)
+          for (const double eps : axes.strains)
             for (const double s : table.curves.cut_height)
               values.push_back(
                   std::min(FrictionTable::rigid_strain_load,
@@ -239,16 +320,19 @@ namespace tribodraw
       void
       make_ploughing()
       {
-        const auto         &pressures = pair.axes.pressures, &strains = pair.axes.strains;
+        const auto         &pressures = axes.pressures, &strains = axes.strains;
         std::vector<double> coefficient(pressures.size() * strains.size(), 0.);
         std::vector<double> full_contact(coefficient.size(), 0.);
         if (pair.tool.size() > 0)
           {
             const timing::Scope scope("friction_table/ploughing");
             const ToolSurface   tool(pair.tool, pair.boundary_friction.ploughing_directions);
-            parallel::for_range(coefficient.size(), 1, [&](const std::size_t begin, const std::size_t end) {
-              for (std::size_t point = begin; point < end; ++point)
+            const std::size_t   n_ranks = parallel::size(), first = parallel::rank();
+            const std::size_t   n_own = (coefficient.size() + n_ranks - 1 - first) / n_ranks;
+            parallel::for_range(n_own, 1, [&](const std::size_t begin, const std::size_t end) {
+              for (std::size_t own = begin; own < end; ++own)
                 {
+                  const std::size_t   point = first + own * n_ranks;
                   const double        p = pressures[point / strains.size()], eps = strains[point % strains.size()];
                   const double        s   = table.cut_height_monotone.values()[point];
                   const SheetStrength now = strength(eps);
@@ -264,9 +348,59 @@ namespace tribodraw
                 }
             });
           }
+        parallel::sum(coefficient);
+        parallel::sum(full_contact);
         table.ploughing_coefficient = Table<2>({ pressure_axis(AxisScale::logarithmic), strain_axis() }, coefficient);
         table.provenance["ploughing_points_in_full_contact"] = std::count(full_contact.begin(), full_contact.end(), 1.);
         table.provenance["asperity_half_spacing_mm"]         = flattening().half_spacing();
+      }
+
+      std::vector<FlowFactors>
+      compute(const std::vector<double> &cuts, const double from, const double to) const
+      {
+        auto factors = pair.flow_factors->compute(pair.sheet, pair.tool, table.sq, cuts,
+                                                  [&](const double done) { report(from + (to - from) * done); });
+        if (factors.size() != cuts.size())
+          throw std::logic_error("The flow factor model returned a wrong number of results.");
+        return factors;
+      }
+
+      /// Estimated interpolation error on both sides of each inner point: what a curve through the other points misses
+      /// it by. That curve has gaps of twice the width; for a smooth function and a curve that is piecewise cubic the
+      /// true error is several times smaller.
+      static std::vector<double>
+      factor_errors(const std::vector<double> &cuts, const std::vector<FlowFactors> &factors)
+      {
+        constexpr double    gain = 4; // of halving the width: second order, as where the curve is kept monotone
+        std::vector<double> errors(cuts.size(), 0.);
+        for (std::size_t leave = 1; leave + 1 < cuts.size(); ++leave)
+          for (std::size_t component = 0; component < 8; ++component)
+            {
+              const auto value
+                  = [&](const FlowFactors &f) { return component < 4 ? f.phi_p[component] : f.phi_s[component - 4]; };
+              std::vector<double> x, y;
+              for (std::size_t i = 0; i < cuts.size(); ++i)
+                if (i != leave)
+                  {
+                    x.push_back(cuts[i]);
+                    y.push_back(value(factors[i]));
+                  }
+              const double missed = std::abs(MonotoneCurve(x, y)(cuts[leave]) - value(factors[leave]));
+              errors[leave]       = std::max(errors[leave], missed / gain);
+            }
+        return errors;
+      }
+
+      /// Middles of the intervals beside points that the others do not foretell well enough.
+      std::vector<double>
+      doubtful_middles(const std::vector<double> &cuts, const std::vector<FlowFactors> &factors) const
+      {
+        const auto          errors = factor_errors(cuts, factors);
+        std::vector<double> middles;
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+          if (std::max(errors[i], errors[i + 1]) > axes.interpolation_error)
+            middles.push_back(0.5 * (cuts[i] + cuts[i + 1]));
+        return middles;
       }
 
       void
@@ -274,11 +408,20 @@ namespace tribodraw
       {
         auto               &c = table.curves;
         std::vector<double> cuts
-            = spread_cut_heights(heights, c.cut_height.front(), c.cut_height.back(), pair.axes.n_cut_heights);
-        const auto factors = pair.flow_factors->compute(pair.sheet, pair.tool, table.sq, cuts,
-                                                        [&](const double done) { report(0.15 + 0.85 * done); });
-        if (factors.size() != cuts.size())
-          throw std::logic_error("The flow factor model returned a wrong number of results.");
+            = spread_cut_heights(heights, c.cut_height.front(), c.cut_height.back(), axes.n_cut_heights);
+        std::vector<FlowFactors>  factors = compute(cuts, 0.15, 0.75);
+        const std::vector<double> added   = doubtful_middles(cuts, factors);
+        if (!added.empty())
+          {
+            const auto more = compute(added, 0.75, 1.);
+            factors.insert(factors.end(), more.begin(), more.end());
+            cuts.insert(cuts.end(), added.begin(), added.end());
+            std::sort(cuts.begin(), cuts.end());
+            std::sort(factors.begin(), factors.end(),
+                      [](const FlowFactors &x, const FlowFactors &y) { return x.cut_height < y.cut_height; });
+          }
+        const auto errors                                   = factor_errors(cuts, factors);
+        table.provenance["flow_factor_interpolation_error"] = *std::max_element(errors.begin(), errors.end());
 
         const auto interpolate = [&](std::vector<double> &curve, const auto &value) {
           std::vector<double> points;

@@ -17,7 +17,7 @@ namespace tribodraw
   namespace
   {
     /// Changes whenever the same input would give another table; part of every fingerprint.
-    constexpr const char *method_version = "2";
+    constexpr const char *method_version = "3";
 
     /// The lines of the named top-level subsections of an effective parameter file.
     std::string
@@ -84,6 +84,17 @@ namespace tribodraw
         parameters.integer("Curve points", Range::between(16, 100000),
                            "Points over the cut height of contact fraction, film and flattening, which cost little.",
                            Default{ "256", "interpolation errors of the film below 0.1 %" }));
+    axes.interpolation_error = parameters.quantity(
+        "Interpolation error", "", Range{ 1e-4, 1. },
+        "Between the points of the table, contact fraction, mean film over Sq and flow factors shall be nearer than "
+        "this to "
+        "the model. Pressures, strains and cut heights are added until they are. The error that remains is printed and "
+        "stored with the table. 1: nothing is added.",
+        Default{ "0.01", "below the scatter between maps of one sheet" });
+    axes.max_points = static_cast<unsigned int>(parameters.integer(
+        "Largest number of points", Range::between(2, 500),
+        "Pressures and strains are added up to this number of each.",
+        Default{ "40", "a table of a few megabytes; ploughing at 1,600 points takes half a minute" }));
     check_ascending(parameters, "Pressures", axes.pressures);
     check_ascending(parameters, "Strains", axes.strains);
     if (!axes.strains.empty() && axes.strains.front() != 0. && !parameters.documentation_mode())

@@ -26,6 +26,10 @@ namespace tribodraw
     std::vector<double> strains;            ///< equivalent plastic strain, ascending from 0
     unsigned int        n_cut_heights  = 0; ///< separations at which flow factors are computed
     unsigned int        n_curve_points = 0; ///< points of the state curves over the cut height
+    /// Points are added halfway (pressures: geometrically) until linear interpolation is nearer than this to the
+    /// model, in contact fraction, mean film over Sq and flow factors; 1: no points are added.
+    double       interpolation_error = 1;
+    unsigned int max_points          = 40; ///< of pressures and of strains
 
     static FrictionTableAxes read(Parameters &parameters);
   };

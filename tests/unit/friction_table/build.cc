@@ -180,3 +180,49 @@ TEST(FrictionTableBuild, RegimesOfThePaper)
           EXPECT_GT(h->mean_gap(s) / um, 0.670) << p;
         }
 }
+
+// With a demanded interpolation error points are added, and halfway between all of them the table is then as near to
+// the model as it says: contact fraction and film from a direct solution against those of the interpolated cut height.
+TEST(FrictionTableBuild, AddsPointsUntilInterpolationIsGoodEnough)
+{
+  PairDescription pair            = test::sample_pair(128);
+  pair.axes.pressures             = { 1, 10, 100 };
+  pair.axes.strains               = { 0, 0.5 };
+  const FrictionTable      coarse = build_friction_table(pair);
+  const HeightDistribution heights(pair.sheet);
+  const auto               worst = [&](const FrictionTable &table) {
+    const auto &p = table.cut_height_monotone.axes()[0].points, &e = table.cut_height_monotone.axes()[1].points;
+    double      error = 0;
+    for (std::size_t i = 0; i + 1 < p.size(); ++i)
+      for (std::size_t j = 0; j < e.size(); ++j)
+        {
+          const double pressure = std::sqrt(p[i] * p[i + 1]);
+          const auto   direct = pair.flattening->monotone_cut_heights(heights, *pair.hardening, pressure, e);
+          const double s      = table.cut_height_monotone.value({ pressure, e[j] });
+          error = std::max(error, std::abs(heights.contact_fraction(s) - heights.contact_fraction(direct[j])));
+          error = std::max(error, std::abs(heights.mean_gap(s) - heights.mean_gap(direct[j])) / table.sq);
+        }
+    return error;
+  };
+  EXPECT_EQ(coarse.cut_height_monotone.axes()[0].points.size(), 3u);
+  EXPECT_GT(worst(coarse), 0.02);
+  EXPECT_GE(coarse.provenance.at("interpolation_error").get<double>(), worst(coarse) * (1 - 1e-9));
+
+  pair.axes.interpolation_error = 0.01;
+  const FrictionTable fine      = build_friction_table(pair);
+  EXPECT_GT(fine.cut_height_monotone.axes()[0].points.size(), 3u);
+  EXPECT_GT(fine.cut_height_monotone.axes()[1].points.size(), 2u);
+  EXPECT_LE(fine.provenance.at("interpolation_error").get<double>(), 0.01);
+  EXPECT_LE(worst(fine), 0.01);
+  // Flow factors: the estimate is stored, and the curves are as good against the closed form of the sample.
+  EXPECT_LE(fine.provenance.at("flow_factor_interpolation_error").get<double>(), 0.01);
+  for (const double s : fine.curves.cut_height)
+    EXPECT_NEAR(fine.film(s).phi_p(0, 0), test::ClosedFormFactors::phi_p(fine.film(s).h_avg / fine.sq), 0.01);
+
+  // A limit on the number of points is kept, and the error that remains is told.
+  pair.axes.interpolation_error = 1e-4;
+  pair.axes.max_points          = 6;
+  const FrictionTable limited   = build_friction_table(pair);
+  EXPECT_EQ(limited.cut_height_monotone.axes()[0].points.size(), 6u);
+  EXPECT_GT(limited.provenance.at("interpolation_error").get<double>(), 1e-4);
+}
