@@ -45,10 +45,12 @@ namespace tribodraw
       void
       run(const RunContext &context) override
       {
+        Progress        progress("Evaluation of the surface", 1.);
         const HeightMap map = make();
         if (map.size() == 0)
           throw InputError(
               describe_error("An ideally smooth surface has no roughness to measure.", "Sheet surface/Model"));
+        progress.update(0.3, "made and processed");
         if (parallel::rank() != 0)
           return;
         log::info("Surface: " + map.description);
@@ -56,6 +58,7 @@ namespace tribodraw
           const timing::Scope scope("surface/evaluate");
           return evaluate_surface(map, settings);
         }();
+        progress.update(0.9, "evaluated");
         report(evaluation);
         const timing::Scope scope("surface/write");
         write_parameters(evaluation, context.file("surface.csv"));
@@ -64,6 +67,7 @@ namespace tribodraw
         write_gsf(map, context.file("surface.gsf"));
         if (!format.empty())
           write_surface_file(map, context.file("surface_map." + format.substr(0, 3)), format);
+        progress.finish();
       }
 
     private:
