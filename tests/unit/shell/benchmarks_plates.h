@@ -118,8 +118,8 @@ namespace shell_benchmark
             std::array<Vector3d, 3>        k;
             for (unsigned p = 0; p < 3; ++p)
               k[p] = (shell_element::curvature(r, now, p) - r.initial_curvature[p]) / small;
-            const Vector3d mean = (k[0] + k[1] + k[2]) / 3;
-            sum += mean + 2 * (k[corner] - mean); // points at 2/3, 1/6, 1/6
+            // Point p lies in the middle of the side from node p to p + 1.
+            sum += k[corner] + k[(corner + 2) % 3] - k[(corner + 1) % 3];
             ++count;
           }
     m.shell.revert();

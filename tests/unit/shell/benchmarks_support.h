@@ -27,8 +27,9 @@ namespace shell_benchmark
     Supports    supports;
     Loads       loads, constant;
 
-    Model(SurfaceMesh mesh, double thickness, std::shared_ptr<const SheetMaterial> material, unsigned n_points = 3)
-        : surface(std::move(mesh)), shell(surface.mesh, thickness, std::move(material), n_points), supports(shell)
+    Model(SurfaceMesh mesh, double thickness, std::shared_ptr<const SheetMaterial> material, unsigned n_points = 3,
+          Shell::ThicknessPoints rule = Shell::ThicknessPoints::gauss)
+        : surface(std::move(mesh)), shell(surface.mesh, thickness, std::move(material), n_points, rule), supports(shell)
     {
     }
 
