@@ -1,5 +1,6 @@
 #include <tribodraw/flow_factors/cell_coarsening.h>
 
+#include <algorithm>
 #include <array>
 
 namespace tribodraw
@@ -14,8 +15,9 @@ namespace tribodraw
   {
     // An edge whose conductance to its corners is below this part of that to its other neighbours is kept. 0.1 to 0.6
     // take the same number of iterations.
-    constexpr double  weak = 0.25;
-    const CellLayout &l    = k.layout;
+    constexpr double  weak    = 0.25;
+    constexpr double  largest = 1e30; // of single precision, with room
+    const CellLayout &l       = k.layout;
     weight.assign(l.size(1), 0.f);
     for (int iy = 0; iy < l.ny; ++iy)
       {
@@ -30,12 +32,12 @@ namespace tribodraw
             const bool odd_x = ix % 2 == 1, odd_y = iy % 2 == 1;
             if (odd_x && odd_y)
               {
-                w[ix] = static_cast<float>(1 / (along_x + along_y));
+                w[ix] = static_cast<float>(std::min(1 / (along_x + along_y), largest));
                 continue;
               }
             const double along = odd_x ? along_x : along_y, across = odd_x ? along_y : along_x;
             if ((odd_x || odd_y) && along >= weak * across)
-              w[ix] = static_cast<float>(1 / along);
+              w[ix] = static_cast<float>(std::min(1 / along, largest));
             else
               site.push_back(ix);
           }

@@ -303,7 +303,9 @@ namespace tribodraw
       : k(conductances), coarsening(std::make_unique<CellCoarsening>(conductances)),
         coarse(std::make_unique<GraphMultigrid>(coarsening->coarse_matrix(), 2))
   {
-    const CellLayout &l = k.layout;
+    // Of the mean film: flows are of order one, what passes less is nothing, and single precision ends at 1e-38.
+    constexpr double  least_conductance = 1e-30;
+    const CellLayout &l                 = k.layout;
     kx.assign(l.size(1), 0.f);
     ky.assign(l.size(1) + l.stride(), 0.f);
     inverse.assign(l.size(1), 0.f);
@@ -314,7 +316,7 @@ namespace tribodraw
         for (int ix = 0; ix < l.nx; ++ix)
           {
             const double sum = (k.x_row(iy)[ix] + k.x_row(iy)[ix + 1]) + (k.y_row(iy)[ix] + k.y_row(iy + 1)[ix]);
-            inverse[l.row(1, iy, 0) + ix] = sum > 0 ? static_cast<float>(1 / sum) : 0.f;
+            inverse[l.row(1, iy, 0) + ix] = sum > least_conductance ? static_cast<float>(1 / sum) : 0.f;
           }
       }
     std::copy_n(k.y_row(l.ny), l.nx, &ky[l.row(1, l.ny, 0)]);

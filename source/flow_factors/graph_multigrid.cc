@@ -112,8 +112,9 @@ namespace tribodraw
         copy(true);
         middle.push_back(out);
         copy(false);
-        const double d = m.diagonal(i);
-        inverse_diagonal.push_back(d > 0 ? static_cast<Real>(1 / d) : Real(0));
+        constexpr double least_conductance = 1e-30; // below is nothing, and single precision ends at 1e-38
+        const double     d                 = m.diagonal(i);
+        inverse_diagonal.push_back(d > least_conductance ? static_cast<Real>(1 / d) : Real(0));
         diagonal.push_back(static_cast<Real>(d));
       }
   }
