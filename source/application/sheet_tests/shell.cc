@@ -81,7 +81,7 @@ namespace tribodraw
       read_steps(Parameters &p, const std::string &list, const std::string &first, const std::string &largest,
                  const std::string &unit, const std::string &documentation)
       {
-        targets      = p.quantity_list(list, unit, Range::any(), documentation);
+        targets      = p.quantity_list(list, unit, Range::between(-1e9, 1e9), documentation);
         first_step   = p.quantity(first, unit, Range::positive(), "First step; the following adapt.");
         largest_step = p.quantity(largest, unit, Range::positive(), "Largest step.");
         if (!p.documentation_mode() && (targets.empty() || targets.back() == 0))

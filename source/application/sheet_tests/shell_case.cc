@@ -36,7 +36,7 @@ namespace tribodraw
     Vector3d
     read_vector(Parameters &p, const std::string &entry, const std::string &unit, const std::string &documentation)
     {
-      const std::vector<double> values = p.quantity_list(entry, unit, Range::any(), documentation);
+      const std::vector<double> values = p.quantity_list(entry, unit, Range::between(-1e9, 1e9), documentation);
       if (values.size() != 3)
         {
           if (!p.documentation_mode())
@@ -80,16 +80,43 @@ namespace tribodraw
     std::array<double, 2>
     read_range(Parameters &p, const std::string &name)
     {
-      const std::vector<double> range = p.quantity_list("Range of " + name, "", Range::any(),
+      const std::vector<double> range = p.quantity_list(name + " range", "", Range::between(-1e9, 1e9),
                                                         "First and last value of the parameter " + name + ".");
       if (p.documentation_mode())
         return { { 0, 1 } };
       if (range.size() != 2 || !(range[1] > range[0]))
         {
-          p.problem("Range of " + name, "expected two numbers in ascending order.");
+          p.problem(name + " range", "expected two numbers in ascending order.");
           return { { 0, 1 } };
         }
       return { { range[0], range[1] } };
+    }
+
+    /// The entry of a coordinate: `X position`.
+    std::string
+    entry_of(const unsigned axis)
+    {
+      return std::string(1, "XYZ"[axis]) + " position";
+    }
+
+    void
+    check_expression(Parameters &p, const std::string &entry, const std::string &expression, const double u,
+                     const double v)
+    {
+      constexpr double largest = 1e9; // mm
+      if (expression.empty())
+        return; // missing, which is a problem already
+      try
+        {
+          const double x = evaluate(*parse({ { expression, "0", "0" } }), u, v)[0];
+          if (!(std::abs(x) <= largest))
+            p.problem(entry, "the position in the middle of the surface is not finite or too large.");
+        }
+      catch (const std::exception &)
+        {
+          p.problem(entry, "`" + expression + "` cannot be evaluated.", "an expression of u and v in mm, without unit",
+                    "Write products with *, powers with ^.");
+        }
     }
 
     ShellCase::Surface
@@ -97,16 +124,15 @@ namespace tribodraw
     {
       ShellCase::Surface surface;
       for (unsigned k = 0; k < 3; ++k)
-        surface.expression[k] = p.text("Position " + axis_names[k],
-                                       "Coordinate " + axis_names[k]
-                                           + " of the mid-surface in mm, an expression of u and v (angles in rad; sin, "
-                                             "cos, sqrt, if(condition, a, b) and so on; pi).");
-      surface.u_range = read_range(p, "u");
-      surface.v_range = read_range(p, "v");
-      surface.n_u = static_cast<unsigned>(p.integer("Elements along u", Range::between(1, 2000), "Squares along u."));
-      surface.n_v
-          = static_cast<unsigned>(p.integer("Elements along v", Range::between(1, 2000),
-                                            "Squares along v; with the pattern polar, sides of the first ring."));
+        surface.expression[k]
+            = p.text(entry_of(k), "Coordinate " + axis_names[k]
+                                      + " of the mid-surface in mm, an expression of u and v (angles in rad; sin, "
+                                        "cos, sqrt, if(condition, a, b) and so on; pi).");
+      surface.u_range = read_range(p, "U");
+      surface.v_range = read_range(p, "V");
+      surface.n_u     = static_cast<unsigned>(p.integer("U elements", Range::between(1, 2000), "Squares along u."));
+      surface.n_v     = static_cast<unsigned>(p.integer(
+              "V elements", Range::between(1, 2000), "Squares along v; with the pattern polar, sides of the first ring."));
       const std::vector<std::string> patterns{ "alternating", "parallel", "crossed", "polar" };
       surface.pattern = static_cast<GridPattern>(position_of(
           patterns,
@@ -116,20 +142,9 @@ namespace tribodraw
                    Default{ "alternating", "no direction is preferred" })));
       if (p.documentation_mode())
         return surface;
-      try
-        {
-          const Vector3d x = evaluate(*parse(surface.expression), 0.5 * (surface.u_range[0] + surface.u_range[1]),
-                                      0.5 * (surface.v_range[0] + surface.v_range[1]));
-          if (!x.allFinite())
-            p.problem("Position x", "the position in the middle of the surface is not finite.");
-        }
-      catch (const std::exception &)
-        {
-          p.problem("Position x",
-                    "`" + surface.expression[0] + "`, `" + surface.expression[1] + "`, `" + surface.expression[2]
-                        + "` cannot be evaluated.",
-                    "expressions of u and v", "Write products with *, powers with ^.");
-        }
+      for (unsigned k = 0; k < 3; ++k)
+        check_expression(p, entry_of(k), surface.expression[k], 0.5 * (surface.u_range[0] + surface.u_range[1]),
+                         0.5 * (surface.v_range[0] + surface.v_range[1]));
       return surface;
     }
 
@@ -198,23 +213,23 @@ namespace tribodraw
         ShellCase::MovedSide moved;
         moved.side         = read_side(p, "Side that is moved.");
         moved.component    = position_of(axis_names, p.choice("Component", axis_names, "Direction of the motion."));
-        moved.displacement = p.quantity("Displacement", "mm", Range::any(), "At load factor one.");
+        moved.displacement = p.quantity("Displacement", "mm", Range::between(-1e9, 1e9), "At load factor one.");
         c.moved_sides.push_back(moved);
       });
       for_each_section(p, "Turned side", [&] {
         ShellCase::TurnedSide turned;
-        turned.side = read_side(p, "Side that is turned about its direction.");
-        turned.angle
-            = p.quantity("Angle", "rad", Range::any(),
-                         "Right-handed about the direction in which the parameter grows along the side, at load "
-                         "factor one.");
+        turned.side  = read_side(p, "Side that is turned about its direction.");
+        turned.angle = p.quantity(
+            "Angle", "", Range::between(-1e9, 1e9),
+            "In rad; right-handed about the direction in which the parameter grows along the side, at load "
+            "factor one.");
         c.turned_sides.push_back(turned);
       });
       if (p.has("Surface force") || p.documentation_mode())
         c.surface_force
             = read_vector(p, "Surface force", "MPa",
                           "Dead force per undeformed area at load factor one, such as weight. May be left out.");
-      c.pressure = p.quantity("Pressure", "MPa", Range::any(),
+      c.pressure = p.quantity("Pressure", "MPa", Range::between(-1e9, 1e9),
                               "Along the normal X_u x X_v of the deformed surface at load factor one.",
                               Default{ "0 MPa", "an unloaded sheet" });
       if (!p.documentation_mode() && c.point_forces.empty() && c.side_forces.empty() && c.side_moments.empty()
@@ -232,14 +247,15 @@ namespace tribodraw
       m.name      = p.text("Name", "Word for this displacement, a column of load_displacement.csv.");
       m.position  = read_vector(p, "Position", "mm", "The displacement of the nearest node is written.");
       m.component = position_of(axis_names, p.choice("Component", axis_names, "Component of the displacement."));
-      m.weight    = p.quantity("Factor", "", Range::any(), "The displacement is multiplied by it, such as -1.",
-                               Default{ "1", "the displacement itself" });
+      m.weight
+          = p.quantity("Factor", "", Range::between(-1e9, 1e9), "The displacement is multiplied by it, such as -1.",
+                       Default{ "1", "the displacement itself" });
       if (p.has("Reference displacements") || p.has("Reference load factors") || p.documentation_mode())
         {
           m.reference_factor
-              = p.quantity_list("Reference load factors", "", Range::any(),
+              = p.quantity_list("Reference load factors", "", Range::between(-1e9, 1e9),
                                 "Load factors of published points; drawn and compared. May be left out.");
-          m.reference_displacement = p.quantity_list("Reference displacements", "mm", Range::any(),
+          m.reference_displacement = p.quantity_list("Reference displacements", "mm", Range::between(-1e9, 1e9),
                                                      "Displacements of the published points. May be left out.");
           if (!p.documentation_mode() && m.reference_factor.size() != m.reference_displacement.size())
             p.problem("Reference displacements", "there are " + std::to_string(m.reference_displacement.size())
