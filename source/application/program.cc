@@ -109,6 +109,7 @@ namespace tribodraw
 
       RunContext context;
       context.parameter_file       = file;
+      context.settings             = line.settings;
       context.output_folder        = line.output.empty() ? fs::path("output") / file.stem() : line.output;
       context.resume               = line.resume;
       context.effective_parameters = parameters.effective();

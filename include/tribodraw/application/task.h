@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tribodraw
 {
@@ -11,10 +12,11 @@ namespace tribodraw
   /// What a task gets to know of the run it is part of.
   struct RunContext
   {
-    std::filesystem::path output_folder;        ///< exists and is writable
-    bool                  resume = false;       ///< go on from the newest checkpoint in the output folder
-    std::string           effective_parameters; ///< text of effective.prm, defaults included
-    std::filesystem::path parameter_file;
+    std::filesystem::path    output_folder;        ///< exists and is writable
+    bool                     resume = false;       ///< go on from the newest checkpoint in the output folder
+    std::string              effective_parameters; ///< text of effective.prm, defaults included
+    std::filesystem::path    parameter_file;
+    std::vector<std::string> settings; ///< `Section/Entry = value` of the command line, which override the file
 
     /// Path of a file in the output folder.
     std::filesystem::path
