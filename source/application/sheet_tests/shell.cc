@@ -48,13 +48,15 @@ namespace tribodraw
                        "displacement: that of measure 1 is prescribed. path: arc length, past limit points and back.");
         l.control       = static_cast<Control>(std::find(controls.begin(), controls.end(), chosen) - controls.begin());
         const bool load = chosen == "load", displacement = chosen == "displacement" || chosen == "path";
-        if (load || p.documentation_mode())
+        // Without a choice every entry is asked for, so that mistyped ones are recognised.
+        const bool all = p.documentation_mode() || !p.has("Control");
+        if (load || all)
           l.read_steps(p, "Load factors", "First load step", "Largest load step", "",
                        "Load factors that are reached exactly, one after the other.");
         else
           for (const char *entry : { "Load factors", "First load step", "Largest load step" })
             p.mark_unselected(entry);
-        if (displacement || p.documentation_mode())
+        if (displacement || all)
           l.read_steps(
               p, "Displacements", "First step", "Largest step", "mm",
               "Displacements of measure 1. They are reached exactly, one after the other, under the control "
@@ -63,7 +65,7 @@ namespace tribodraw
         else
           for (const char *entry : { "Displacements", "First step", "Largest step" })
             p.mark_unselected(entry);
-        if (load || displacement || p.documentation_mode())
+        if (load || displacement || all)
           {
             l.time    = p.quantity("Time", "s", Range::positive(), "Time in which the last of them is reached.",
                                    Default{ "1 s", "without effect for materials that do not depend on the strain rate" });
