@@ -36,6 +36,11 @@ namespace tribodraw::figures
       chart.series        = { { "friction coefficient", x, data.numbers("mu"), Style::line_with_points },
                               { "part of the asperities", x, data.numbers("solid_friction"), Style::dashed_line },
                               { "load carried by the lubricant", x, data.numbers("lubricant_share"), Style::line } };
+      if (data.numbers("mu_lowest") != data.numbers("mu_highest"))
+        {
+          chart.series.push_back({ "least of the maps", x, data.numbers("mu_lowest"), Style::dots });
+          chart.series.push_back({ "greatest of the maps", x, data.numbers("mu_highest"), Style::dots });
+        }
       plot::draw(chart, folder / sweep.file);
     }
 

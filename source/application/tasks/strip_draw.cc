@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
 
 namespace tribodraw
 {
@@ -35,7 +36,7 @@ namespace tribodraw
       std::function<void(Point &, double)> apply;
     };
 
-    constexpr std::size_t n_numbers = 15; // of a result, as sent between ranks
+    constexpr std::size_t n_numbers = 17; // of a result, as sent between ranks
 
     /// What the tables of sweeps need of a result.
     std::vector<double>
@@ -115,12 +116,16 @@ namespace tribodraw
                                    settings.phi_p_floor);
         lubricant.viscosity_law->set_reference_viscosity(base.viscosity);
         const Result result = contact.solve(base.conditions);
+        for (const auto &file : band_files)
+          band.push_back(std::make_unique<StripContact>(
+              geometry, std::make_shared<FrictionTable>(FrictionTable::read(file)), lubricant.viscosity_law,
+              settings.boundary_layer_pressure, settings.phi_p_floor));
         log::info("Friction coefficient " + units::number(result.friction_coefficient) + ", the lubricant carries "
                   + units::number(100. * result.lubricant_share) + " % of the load, " + regime_name(result.regime)
                   + " lubrication");
         if (parallel::rank() == 0)
           {
-            write_results(result, context);
+            write_results(result, band_of(base), context);
             write_profile(result, context);
           }
         for (const Sweep &sweep : sweeps)
@@ -199,6 +204,27 @@ namespace tribodraw
           strains = { base.conditions.strain };
       }
 
+      void
+      read_band(Parameters &p)
+      {
+        if (!p.has("Band files") && !p.documentation_mode())
+          return;
+        std::istringstream list(
+            p.text("Band files",
+                   "Friction tables of single maps of the sheet (friction_table_map_<n>.json), separated "
+                   "by commas: the scatter of the surface becomes a band of the friction coefficient.",
+                   Default{ "", "no band" }));
+        for (std::string file; std::getline(list, file, ',');)
+          {
+            const auto first = file.find_first_not_of(' '), last = file.find_last_not_of(' ');
+            if (first == std::string::npos)
+              continue;
+            band_files.push_back(p.base_folder() / file.substr(first, last - first + 1));
+            if (!std::filesystem::exists(band_files.back()) && !p.documentation_mode())
+              p.problem("Band files", "The file `" + band_files.back().string() + "` does not exist.");
+          }
+      }
+
       std::shared_ptr<const FrictionTable>
       get_table(const std::filesystem::path &cache)
       {
@@ -211,11 +237,27 @@ namespace tribodraw
         return made;
       }
 
+      /// Friction coefficients with the tables of the single maps.
+      std::vector<double>
+      band_of(const Point &point)
+      {
+        lubricant.viscosity_law->set_reference_viscosity(point.viscosity);
+        std::vector<double> mu;
+        for (const auto &member : band)
+          mu.push_back(member->solve(point.conditions).friction_coefficient);
+        return mu;
+      }
+
       static void
-      write_results(const Result &r, const RunContext &context)
+      write_results(const Result &r, const std::vector<double> &mu_band, const RunContext &context)
       {
         CsvTable csv({ "quantity", "value", "unit" });
         csv.add_row({ "friction_coefficient", r.friction_coefficient, "1" });
+        if (!mu_band.empty())
+          {
+            csv.add_row({ "friction_coefficient_lowest", *std::min_element(mu_band.begin(), mu_band.end()), "1" });
+            csv.add_row({ "friction_coefficient_highest", *std::max_element(mu_band.begin(), mu_band.end()), "1" });
+          }
         csv.add_row({ "solid_friction", r.solid_friction, "1" });
         csv.add_row({ "viscous_friction", r.viscous_friction, "1" });
         csv.add_row({ "solid_share", r.solid_share, "1" });
@@ -273,7 +315,11 @@ namespace tribodraw
             try
               {
                 lubricant.viscosity_law->set_reference_viscosity(points[i].viscosity);
-                const auto row = numbers(contact.solve(points[i].conditions));
+                auto row = numbers(contact.solve(points[i].conditions));
+                auto mu  = band_of(points[i]);
+                mu.push_back(row[0]);
+                row.push_back(*std::min_element(mu.begin(), mu.end()));
+                row.push_back(*std::max_element(mu.begin(), mu.end()));
                 std::copy(row.begin(), row.end(), all.begin() + static_cast<std::ptrdiff_t>(i * n_numbers));
               }
             catch (const InputError &e)
@@ -313,10 +359,26 @@ namespace tribodraw
           {
             const double *r = &all[i * n_numbers];
             const auto   &c = points[i].conditions;
-            csv.add_row({ c.pressure, c.speed, c.strain, c.supplied_film * lubricant.density / units::factor("g/m^2"),
+            csv.add_row({ c.pressure,
+                          c.speed,
+                          c.strain,
+                          c.supplied_film * lubricant.density / units::factor("g/m^2"),
                           points[i].viscosity / units::factor("mPa s"),
-                          points[i].viscosity * c.speed / (c.pressure * table->sq), r[0], r[1], r[2], r[3], r[4],
-                          r[5] / units::factor("um"), r[6], r[7], r[8], r[9], r[10], r[11],
+                          points[i].viscosity * c.speed / (c.pressure * table->sq),
+                          r[0],
+                          r[1],
+                          r[2],
+                          r[3],
+                          r[4],
+                          r[5] / units::factor("um"),
+                          r[6],
+                          r[7],
+                          r[8],
+                          r[9],
+                          r[10],
+                          r[11],
+                          r[15],
+                          r[16],
                           regime_name(static_cast<Result::Regime>(static_cast<int>(r[12]))) });
           }
         csv.save(context.file("sweep_" + sweep.name + ".csv"));
@@ -354,16 +416,18 @@ namespace tribodraw
         coefficients.write(context.file("friction_coefficient.json"), context.file("friction_coefficient.csv"));
       }
 
-      StripContact::Geometry                geometry;
-      Point                                 base;
-      LubricationSettings                   settings;
-      Lubricant                             lubricant;
-      std::vector<double>                   pressures, speeds, strains;
-      std::vector<Sweep>                    sweeps;
-      bool                                  coefficient_table = false;
-      std::filesystem::path                 table_file;
-      std::unique_ptr<FrictionTableBuilder> builder;
-      std::shared_ptr<const FrictionTable>  table;
+      StripContact::Geometry                     geometry;
+      Point                                      base;
+      LubricationSettings                        settings;
+      Lubricant                                  lubricant;
+      std::vector<double>                        pressures, speeds, strains;
+      std::vector<Sweep>                         sweeps;
+      bool                                       coefficient_table = false;
+      std::filesystem::path                      table_file;
+      std::unique_ptr<FrictionTableBuilder>      builder;
+      std::shared_ptr<const FrictionTable>       table;
+      std::vector<std::filesystem::path>         band_files;
+      std::vector<std::unique_ptr<StripContact>> band;
     };
   } // namespace
 
