@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace tribodraw
 {
@@ -34,9 +35,11 @@ namespace tribodraw
     }
 
     Vector3d
-    read_vector(Parameters &p, const std::string &entry, const std::string &unit, const std::string &documentation)
+    read_vector(Parameters &p, const std::string &entry, const std::string &unit, const std::string &documentation,
+                const std::optional<Default> &default_value = {})
     {
-      const std::vector<double> values = p.quantity_list(entry, unit, Range::between(-1e9, 1e9), documentation);
+      const std::vector<double> values
+          = p.quantity_list(entry, unit, Range::between(-1e9, 1e9), documentation, default_value);
       if (values.size() != 3)
         {
           if (!p.documentation_mode())
@@ -225,10 +228,9 @@ namespace tribodraw
             "factor one.");
         c.turned_sides.push_back(turned);
       });
-      if (p.has("Surface force") || p.documentation_mode())
-        c.surface_force
-            = read_vector(p, "Surface force", "MPa",
-                          "Dead force per undeformed area at load factor one, such as weight. May be left out.");
+      c.surface_force
+          = read_vector(p, "Surface force", "MPa", "Dead force per undeformed area at load factor one, such as weight.",
+                        Default{ "0, 0, 0 MPa", "an unloaded sheet" });
       c.pressure = p.quantity("Pressure", "MPa", Range::between(-1e9, 1e9),
                               "Along the normal X_u x X_v of the deformed surface at load factor one.",
                               Default{ "0 MPa", "an unloaded sheet" });
@@ -250,18 +252,23 @@ namespace tribodraw
       m.weight
           = p.quantity("Factor", "", Range::between(-1e9, 1e9), "The displacement is multiplied by it, such as -1.",
                        Default{ "1", "the displacement itself" });
-      if (p.has("Reference displacements") || p.has("Reference load factors") || p.documentation_mode())
-        {
-          m.reference_factor
-              = p.quantity_list("Reference load factors", "", Range::between(-1e9, 1e9),
-                                "Load factors of published points; drawn and compared. May be left out.");
-          m.reference_displacement = p.quantity_list("Reference displacements", "mm", Range::between(-1e9, 1e9),
-                                                     "Displacements of the published points. May be left out.");
-          if (!p.documentation_mode() && m.reference_factor.size() != m.reference_displacement.size())
-            p.problem("Reference displacements", "there are " + std::to_string(m.reference_displacement.size())
-                                                     + " displacements and " + std::to_string(m.reference_factor.size())
-                                                     + " load factors.");
-        }
+      {
+        m.reference_factor = p.quantity_list("Reference load factors", "", Range::between(-1e9, 1e9),
+                                             "Load factors of published points; drawn and compared.",
+                                             Default{ "0", "no published points" });
+        m.reference_displacement
+            = p.quantity_list("Reference displacements", "mm", Range::between(-1e9, 1e9),
+                              "Displacements of the published points.", Default{ "0 mm", "no published points" });
+        if (m.reference_factor == std::vector<double>{ 0. } && m.reference_displacement == std::vector<double>{ 0. })
+          {
+            m.reference_factor.clear();
+            m.reference_displacement.clear();
+          }
+        if (!p.documentation_mode() && m.reference_factor.size() != m.reference_displacement.size())
+          p.problem("Reference displacements", "there are " + std::to_string(m.reference_displacement.size())
+                                                   + " displacements and " + std::to_string(m.reference_factor.size())
+                                                   + " load factors.");
+      }
       if (!p.documentation_mode() && m.name.find_first_of(",\"\n") != std::string::npos)
         p.problem("Name", "a column of a CSV file cannot be called so.", "letters, digits, `_`");
       return m;
