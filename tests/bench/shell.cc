@@ -6,6 +6,8 @@
 
 #include <tribodraw/shell/shell.h>
 
+#include <deal.II/base/multithread_info.h>
+
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 
@@ -64,10 +66,16 @@ namespace
     step(0.5);
     shell.commit();
     step(0.1);
-    bench::Timer tangent;
-    for (unsigned i = 0; i < n_repeat; ++i)
-      shell.assemble(0.02, {}, force, &K);
-    print(locus + " tangent and forces plastic", tangent.stop());
+    const unsigned n_cores = dealii::MultithreadInfo::n_threads();
+    for (const unsigned n_threads : { 1u, 2u })
+      {
+        dealii::MultithreadInfo::set_thread_limit(n_threads);
+        bench::Timer tangent;
+        for (unsigned i = 0; i < n_repeat; ++i)
+          shell.assemble(0.02, {}, force, &K);
+        print(locus + " tangent and forces plastic, " + (n_threads == 1 ? "1 thread" : "2 threads"), tangent.stop());
+      }
+    dealii::MultithreadInfo::set_thread_limit(n_cores);
     bench::Timer forces;
     for (unsigned i = 0; i < n_repeat; ++i)
       shell.assemble(0.02, {}, force, nullptr);

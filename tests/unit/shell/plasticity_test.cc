@@ -110,6 +110,37 @@ TEST(PlasticStrip, TensionReproducesTheHardeningCurve)
     }
 }
 
+TEST(PlasticStrip, NewtonConvergesQuadratically)
+{
+  // All points flow: the response is smooth. One iteration from half the distance to the solution leaves a quarter of
+  // the error.
+  Strip strip;
+  strip.pull(1.);
+  Eigen::VectorXd jump = Eigen::VectorXd::Zero(strip.shell.n_dofs());
+  for (unsigned node = 0; node < strip.shell.n_nodes(); ++node)
+    if (strip.at(node, length))
+      jump[strip.shell.dof(node, 0)] = 0.5;
+  const Eigen::VectorXd no_load = Eigen::VectorXd::Zero(strip.shell.n_dofs());
+  strip.problem.solve(no_load, 1e-9, &jump);
+  const Shell::Configuration solution = strip.shell.trial();
+  const auto                 distance = [&](const double size) {
+    strip.shell.set_trial(solution);
+    Eigen::VectorXd u(strip.shell.n_dofs());
+    for (Eigen::Index i = 0; i < u.size(); ++i)
+      u[i] = strip.problem.fixed[i] ? 0 : size * std::sin(1.7 * static_cast<double>(i * i));
+    strip.shell.move(u);
+    strip.shell.move(-strip.problem.solve_linear(strip.problem.residual(no_load)));
+    double sum = 0;
+    for (unsigned node = 0; node < strip.shell.n_nodes(); ++node)
+      sum += (strip.shell.trial().position[node] - solution.position[node]).squaredNorm();
+    return std::sqrt(sum);
+  };
+  const double far = distance(2e-3), near = distance(1e-3);
+  EXPECT_GT(far, 1e-8); // above the accuracy of the solution
+  EXPECT_GT(std::log2(far / near), 1.9);
+  EXPECT_LT(std::log2(far / near), 2.1);
+}
+
 TEST(PlasticStrip, HistoryChangesAtCommitOnly)
 {
   Strip strip;

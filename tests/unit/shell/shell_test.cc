@@ -1,6 +1,8 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/shell/element.h>
 
+#include <deal.II/base/multithread_info.h>
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -131,6 +133,30 @@ TEST(Shell, AssemblyIsRepeatableToTheLastBit)
   ASSERT_TRUE(shell.assemble(1, {}, second, &L));
   EXPECT_EQ((first - second).norm(), 0);
   EXPECT_EQ(K.values(), L.values());
+}
+
+TEST(Shell, AssemblyDoesNotDependOnTheNumberOfThreads)
+{
+  // A mesh large enough to be cut into many pieces.
+  const unsigned before = dealii::MultithreadInfo::n_threads();
+  Shell          shell(rectangle(20, 20, 24, 24), h, material(), 5);
+  shell.move(deformation(shell, 0.02));
+  std::vector<std::vector<double>> tangents, forces;
+  for (const unsigned n : { 1u, 2u, 4u })
+    {
+      dealii::MultithreadInfo::set_thread_limit(n);
+      SparseMatrix    K = shell.make_matrix();
+      Eigen::VectorXd force;
+      ASSERT_TRUE(shell.assemble(1, {}, force, &K));
+      tangents.push_back(K.values());
+      forces.emplace_back(force.data(), force.data() + force.size());
+    }
+  dealii::MultithreadInfo::set_thread_limit(before);
+  for (unsigned k = 1; k < 3; ++k)
+    {
+      EXPECT_EQ(tangents[0], tangents[k]);
+      EXPECT_EQ(forces[0], forces[k]);
+    }
 }
 
 TEST(Shell, ExtraUnknownCouplesWithAllDisplacements)
