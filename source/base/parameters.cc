@@ -326,9 +326,12 @@ namespace tribodraw
                             const std::string            &documentation,
                             const std::optional<Default> &default_value)
   {
+    const bool          may_be_empty = default_value && default_value->value.empty();
     std::vector<double> values;
     const auto          read = [&](const std::string &text) {
       values.clear();
+      if (may_be_empty && trim(text).empty())
+        return true;
       auto              parts     = split_list(text);
       // one unit after the last number holds for all
       const std::string last      = parts.empty() ? "" : parts.back();
@@ -360,15 +363,15 @@ namespace tribodraw
               return false;
             }
         }
-      if (values.empty())
+      if (values.empty() && !may_be_empty)
         data->complain(entry, "the list is empty.", "", range.describe(unit), "");
-      return !values.empty();
+      return !values.empty() || may_be_empty;
     };
     const EntryInfo    info{"", "list of numbers", unit, range.describe(unit), "", true, documentation};
     const std::string *text = data->ask(entry, info, default_value, [&](const std::string &t) { return read(t); });
     if (text && values.empty())
       read(*text); // the default
-    if (values.empty())
+    if (values.empty() && !may_be_empty)
       values.push_back(smallest_allowed(range) * units::factor(unit));
     return values;
   }

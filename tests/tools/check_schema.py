@@ -47,7 +47,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         command = [program, str(source / "prm/friction_table.prm"), "--output", folder + "/out", "--quiet"]
         for surface in ("Sheet", "Tool"):
-            command += ["--set", f"{surface} surface/Generated/Pixels = 64"]
+            command += ["--set", f"{surface} surface/Generated/Pixels = 128"]
         subprocess.run(command, check=True, timeout=300)
         table = json.loads(pathlib.Path(folder, "out/friction_table.json").read_text())
     assert problems(table, schema) == [], problems(table, schema)[:5]

@@ -122,7 +122,8 @@ namespace tribodraw
                     const Range                  &range,
                     const std::string            &documentation,
                     const std::optional<Default> &default_value = {});
-    /// A comma-separated list of numbers; one unit after the last number, or one after each.
+    /// A comma-separated list of numbers; one unit after the last number, or one after each. It may be empty if the
+    /// default is.
     std::vector<double> quantity_list(const std::string            &entry,
                                       const std::string            &unit,
                                       const Range                  &range,

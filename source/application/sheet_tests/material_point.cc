@@ -100,7 +100,8 @@ namespace tribodraw
       read_cases(parameters);
       const bool documentation = parameters.documentation_mode();
       const bool with_path     = std::count(cases.begin(), cases.end(), strain_path) > 0;
-      const bool with_tests    = cases.size() > static_cast<std::size_t>(with_path);
+      // Mistyped cases must not make the entries of tests unknown too.
+      const bool with_tests = cases.empty() || cases.size() > static_cast<std::size_t>(with_path);
       if (with_tests || documentation)
         {
           angles = parameters.quantity_list(

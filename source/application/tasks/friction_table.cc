@@ -61,29 +61,27 @@ namespace tribodraw
       void
       read_further_maps(Parameters &parameters)
       {
-        if (parameters.has("Seeds") || parameters.documentation_mode())
-          for (const double seed : parameters.quantity_list(
-                   "Seeds", "", Range::between(0, 4294967295.),
-                   "Seeds of further maps of a generated sheet. friction_table.json is then the mean over all maps, "
-                   "friction_table_map_<n>.json are the single tables and scatter.csv their scatter.",
-                   Default{ "", "one map" }))
-            further_maps.push_back("Sheet surface/Generated/Seed = " + std::to_string(std::llround(seed)));
-        if (parameters.has("Files") || parameters.documentation_mode())
-          {
-            std::istringstream list(parameters.text(
-                "Files", "Further maps of a measured sheet, separated by commas; read as the first one. See `Seeds`.",
-                Default{ "", "one map" }));
-            for (std::string file; std::getline(list, file, ',');)
-              {
-                const auto first = file.find_first_not_of(' '), last = file.find_last_not_of(' ');
-                if (first == std::string::npos)
-                  continue;
-                file = file.substr(first, last - first + 1);
-                if (!std::filesystem::exists(parameters.base_folder() / file) && !parameters.documentation_mode())
-                  parameters.problem("Files", "The file `" + file + "` does not exist.");
-                further_maps.push_back("Sheet surface/File/Path = " + file);
-              }
-          }
+        for (const double seed : parameters.quantity_list(
+                 "Seeds", "", Range::between(0, 4294967295.),
+                 "Seeds of further maps of a generated sheet. friction_table.json is then the mean over all maps, "
+                 "friction_table_map_<n>.json are the single tables and scatter.csv their scatter.",
+                 Default{ "", "one map" }))
+          further_maps.push_back("Sheet surface/Generated/Seed = " + std::to_string(std::llround(seed)));
+        {
+          std::istringstream list(parameters.text(
+              "Files", "Further maps of a measured sheet, separated by commas; read as the first one. See `Seeds`.",
+              Default{ "", "one map" }));
+          for (std::string file; std::getline(list, file, ',');)
+            {
+              const auto first = file.find_first_not_of(' '), last = file.find_last_not_of(' ');
+              if (first == std::string::npos)
+                continue;
+              file = file.substr(first, last - first + 1);
+              if (!std::filesystem::exists(parameters.base_folder() / file) && !parameters.documentation_mode())
+                parameters.problem("Files", "The file `" + file + "` does not exist.");
+              further_maps.push_back("Sheet surface/File/Path = " + file);
+            }
+        }
       }
 
       static FrictionTable

@@ -154,8 +154,6 @@ namespace tribodraw
       sweep_list(Parameters &p, const std::string &entry, const std::string &unit, const Range &range,
                  const std::string &documentation)
       {
-        if (!p.has(entry) && !p.documentation_mode())
-          return {};
         std::vector<double> values = p.quantity_list(
             entry, unit, range, documentation + " Without this entry it is not varied.", Default{ "", "no sweep" });
         for (std::size_t i = 1; i < values.size(); ++i)
@@ -207,8 +205,6 @@ namespace tribodraw
       void
       read_band(Parameters &p)
       {
-        if (!p.has("Band files") && !p.documentation_mode())
-          return;
         std::istringstream list(
             p.text("Band files",
                    "Friction tables of single maps of the sheet (friction_table_map_<n>.json), separated "

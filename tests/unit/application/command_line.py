@@ -182,7 +182,8 @@ class Runs(InFolder):
     def test_friction_table(self):
         tool = [s.replace("Sheet", "Tool") for s in SMALL]
         files = self.run_twice("friction_table", *SMALL, *tool, "--set", "Friction table/Pressures = 1, 10 MPa",
-                               "--set", "Friction table/Strains = 0, 0.2", "--set", "Friction table/Cut heights = 4")
+                               "--set", "Friction table/Strains = 0, 0.2", "--set", "Friction table/Cut heights = 4",
+                               "--set", "Friction table/Interpolation error = 1")
         self.assertLessEqual({"friction_table.json", "table_contact_fraction.svg", "table_friction_coefficient.svg"}, files)
         self.assertEqual(self.header("friction_table.csv"),
                          "p_solid_mpa,eps_p,cut_height_um,contact_fraction,h_avg_um,tau_solid_mpa,mu_boundary,"

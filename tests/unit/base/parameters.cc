@@ -224,3 +224,15 @@ TEST(Parameters, a_nested_section_can_read_one_of_the_top_level)
   EXPECT_EQ(p.path(), "A/B");
   EXPECT_EQ(p.integer("z", Range::any(), "z"), 3); // back where we were
 }
+
+TEST(Parameters, a_list_may_be_empty_if_its_default_is)
+{
+  Parameters p = Parameters::from_text("set Given = 1, 2 mm\nset Emptied =\n");
+  EXPECT_EQ(p.quantity_list("Given", "mm", Range::positive(), "text", Default{ "", "none" }).size(), 2u);
+  EXPECT_TRUE(p.quantity_list("Emptied", "mm", Range::positive(), "text", Default{ "", "none" }).empty());
+  EXPECT_TRUE(p.quantity_list("Missing", "mm", Range::positive(), "text", Default{ "", "none" }).empty());
+  p.finish();
+  Parameters wrong = Parameters::from_text("set List = -1 mm\n");
+  wrong.quantity_list("List", "mm", Range::positive(), "text", Default{ "", "none" });
+  EXPECT_THROW(wrong.finish(), InputError);
+}
