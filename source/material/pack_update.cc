@@ -158,7 +158,9 @@ namespace tribodraw
                      rb   = ca * s.stress.b + s.flow * s.d.b - trial.b;
           const Pack size = square(mean_modulus * rm) + square(shear_modulus) * (square(ra) + square(rb));
           const Pack goal = square(s.f.value);
-          s.active        = s.active && !(size <= square(ReturnMapping::tolerance) * goal);
+          // project() leaves a flow stress that is extrapolated: not before the next evaluation is the yield equation true.
+          if (iteration > 0)
+            s.active = s.active && !(size <= square(ReturnMapping::tolerance) * goal);
           s.failed        = s.failed || (s.active && !(size < 1e12 * goal));
           s.active        = s.active && !s.failed;
           if (!pack::any(s.active))
@@ -190,7 +192,7 @@ namespace tribodraw
           // The flow stays positive: at most 80 per cent down at a time. Such a step need not reduce the error.
           const PackMask cut  = !too_long && d_flow < -0.8 * s.flow;
           const Pack     full = pack::select(cut, -0.8 * s.flow / pack::select(cut, d_flow, Pack(-1.)), Pack(1.));
-          base_error          = pack::select(cut, Pack(1e300), base_error);
+          base_error          = iteration == 0 ? Pack(1e300) : pack::select(cut, Pack(1e300), base_error);
           step                = { pack::select(too_long, step.m, full * (-Xr.m - d_flow * Xn.m)),
                                   pack::select(too_long, step.a, full * (-Xr.a - d_flow * Xn.a)),
                                   pack::select(too_long, step.b, full * (-Xr.b - d_flow * Xn.b)) };
@@ -198,7 +200,9 @@ namespace tribodraw
           // The error left by so small a full step is its square, and the derivatives are exact to its size.
           const Pack change = square(step.m) + square(step.a) + square(step.b)
                               + 1e-2 * goal * square(step_flow / pack::select(s.active, s.flow, Pack(1.)));
-          const PackMask last = s.active && !cut && !too_long && change < square(1e-8) * goal;
+          PackMask last = s.active && !cut && !too_long && change < square(1e-8) * goal;
+          if (iteration == 0)
+            last = last && !last;
           s.stress.m          = pack::select(s.active, base.m + length * step.m, s.stress.m);
           s.stress.a          = pack::select(s.active, base.a + length * step.a, s.stress.a);
           s.stress.b          = pack::select(s.active, base.b + length * step.b, s.stress.b);

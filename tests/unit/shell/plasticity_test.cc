@@ -141,6 +141,47 @@ TEST(PlasticStrip, NewtonConvergesQuadratically)
   EXPECT_LT(std::log2(far / near), 2.1);
 }
 
+TEST(PlasticStrip, EquibiaxialTensionReproducesTheHardeningCurve)
+{
+  // von Mises: the equivalent stress is the stress along both axes, the equivalent plastic strain twice the strain
+  // along one of them; Hooke: elastic strain (1 - nu) stress / E.
+  const BlankMesh      mesh = distorted_rectangle(10, 10, 4, 4);
+  Shell                shell(mesh, h, plastic_material(E, nu, initial, reference, exponent), 5);
+  StaticProblem        problem(shell);
+  const PowerHardening law(initial, reference, exponent);
+  for (unsigned node = 0; node < shell.n_nodes(); ++node)
+    {
+      problem.fix(node, { 2 });
+      for (unsigned c = 0; c < 2; ++c)
+        if (mesh.nodes[node][c] == 0 || mesh.nodes[node][c] == 10)
+          problem.fix(node, { c });
+    }
+  for (unsigned step = 1; step <= 15; ++step)
+    {
+      Eigen::VectorXd jump = Eigen::VectorXd::Zero(shell.n_dofs());
+      for (unsigned node = 0; node < shell.n_nodes(); ++node)
+        for (unsigned c = 0; c < 2; ++c)
+          if (mesh.nodes[node][c] == 10)
+            jump[shell.dof(node, c)] = 0.1;
+      problem.solve(Eigen::VectorXd::Zero(shell.n_dofs()), 1e-8, &jump);
+      shell.commit();
+      const double strain = std::log(1 + 0.01 * step);
+      double       low = 0, high = E; // stress = flow stress(2 (strain - (1 - nu) stress / E)), by bisection
+      for (unsigned i = 0; i < 200; ++i)
+        {
+          const double s = 0.5 * (low + high);
+          (s < law.flow_stress(std::max(0., 2 * (strain - (1 - nu) * s / E)), 1).value ? low : high) = s;
+        }
+      const auto results = shell.element_results();
+      for (unsigned e = 0; e < shell.n_elements(); ++e)
+        {
+          EXPECT_NEAR(results.membrane_stress_xx[e], low, 1e-6 * low);
+          EXPECT_NEAR(results.membrane_stress_yy[e], low, 1e-6 * low);
+          EXPECT_NEAR(results.eps_p[e], 2 * (strain - (1 - nu) * low / E), 1e-8);
+        }
+    }
+}
+
 TEST(PlasticStrip, HistoryChangesAtCommitOnly)
 {
   Strip strip;
