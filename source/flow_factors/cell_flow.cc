@@ -1,3 +1,5 @@
+#include "row_kernels.h"
+
 #include <tribodraw/base/errors.h>
 #include <tribodraw/flow_factors/cell_flow.h>
 
@@ -180,13 +182,11 @@ namespace tribodraw
         const auto y_flux = [&](const int iy, std::vector<double> &flux) {
           std::fill(flux.begin(), flux.end(), 0.);
           add_drive(fields.drives[r], 1, iy, flux.data());
-          if (iy < ny || !grid.periodic)
-            for (const double f : flux)
-              drive_square += f * f;
           const double *p0 = row(fields.pressure, iy - 1), *p1 = row(fields.pressure, iy),
                        *c0 = row(fields.correction, iy - 1), *c1 = row(fields.correction, iy), *y = k.y_row(iy);
-          for (int i = 0; i < nx; ++i)
-            flux[i] += y[i] * ((p0[i] - p1[i]) + (c0[i] - c1[i]));
+          const double driven = row_kernels::add_flux(nx, flux.data(), y, p0, p1, c0, c1);
+          if (iy < ny || !grid.periodic)
+            drive_square += driven;
         };
         y_flux(0, below_flux);
         if (!grid.periodic && driven_axis == 1)
@@ -196,20 +196,15 @@ namespace tribodraw
             y_flux(iy + 1, above_flux);
             std::fill(x_flux.begin(), x_flux.end(), 0.);
             add_drive(fields.drives[r], 0, iy, x_flux.data());
-            for (int i = 0; i < (grid.periodic ? nx : nx + 1); ++i)
-              drive_square += x_flux[i] * x_flux[i];
+            const double  at_end = x_flux[nx]; // on a periodic map the first face once more
             const double *p = row(fields.pressure, iy), *c = row(fields.correction, iy), *x = k.x_row(iy);
-            for (int i = 0; i <= nx; ++i)
-              x_flux[i] += x[i] * ((p[i - 1] - p[i]) + (c[i - 1] - c[i]));
+            drive_square += row_kernels::add_flux(nx + 1, x_flux.data(), x, p - 1, p, c - 1, c)
+                            - (grid.periodic ? at_end * at_end : 0.);
             if (!grid.periodic && driven_axis == 0)
               solution.inflow[iy] = x_flux[0];
-            const std::size_t first  = static_cast<std::size_t>(iy) * nx;
-            double           *excess = &fields.excess[l.row(n, iy, r)];
-            for (int i = 0; i < nx; ++i)
-              {
-                excess[i] = (x_flux[i] - x_flux[i + 1]) + (below_flux[i] - above_flux[i]);
-                square += excess[i] * excess[i];
-              }
+            const std::size_t first = static_cast<std::size_t>(iy) * nx;
+            square += row_kernels::excess(nx, &fields.excess[l.row(n, iy, r)], x_flux.data(), below_flux.data(),
+                                          above_flux.data());
             if (keep)
               {
                 std::copy(x_flux.begin() + 1, x_flux.end(), &solution.upper_flux[0][first]);

@@ -12,6 +12,9 @@ namespace tribodraw
 {
   namespace
   {
+    // Below this part of the energy of the preconditioned residual, that of the direction is mostly round-off.
+    constexpr double least_part = 1e-3;
+
     template <class T>
     void
     close_row(T *x, const CellLayout &layout)
@@ -33,8 +36,9 @@ namespace tribodraw
 
     std::vector<float>    rhs, result;
     std::array<double, 4> product{}; // of residual and result
+    std::array<double, 4> energy{};  // result times matrix times result
 
-    void run(const std::vector<double> &residual);
+    void run();
 
   private:
     enum Stage : char
@@ -51,7 +55,7 @@ namespace tribodraw
     const CellCoarsening             &coarsening;
     const CellLayout                  l;
     const int                         n; // right-hand sides
-    std::vector<float>                e; // what odd rows hand on to the coarse level, then its correction
+    std::vector<float>                e; // rows in work: what they hand on to the coarse level, then its correction
     std::vector<float>                zero, spare;
     std::vector<float>                coarse_rhs, coarse_x;
     std::array<std::vector<float>, 2> parity; // 1 at even pixels of a row, 1 at odd pixels
@@ -73,6 +77,19 @@ namespace tribodraw
     row(std::vector<float> &field, const int iy, const int r)
     {
       return wrapped(iy) < 0 ? &zero[1] : &field[l.row(n, wrapped(iy), r)];
+    }
+    // Rows are worked on in their order, except those at both ends.
+    static constexpr int end_rows = 4, rows_in_work = 8;
+    float *
+    work_row(const int iy, const int r)
+    {
+      const int w = wrapped(iy);
+      if (w < 0)
+        return &zero[1];
+      const int place = w < end_rows           ? w
+                        : w >= l.ny - end_rows ? w - (l.ny - 2 * end_rows)
+                                               : 2 * end_rows + w % rows_in_work;
+      return &e[l.row(n, place, r)];
     }
     const float *
     coefficients(const std::vector<float> &field, const int iy) const
@@ -99,15 +116,17 @@ namespace tribodraw
     void restrict_values(int iy, int r);
     void correct_row(int iy);
     void relax_again(int iy);
-    void finish_row(int iy, const std::vector<double> &residual);
+    void finish_row(int iy);
+    void add_energy_below(int iy);
   };
 
   CellMultigrid::Cycle::Cycle(const CellMultigrid &m_in, const int n_in)
       : m(m_in), coarsening(*m_in.coarsening), l(m_in.k.layout), n(n_in), odd_x(l.periodic && l.nx % 2 == 1),
         odd_y(l.periodic && l.ny % 2 == 1), first_row(l.stride() * n, 0.f), last_row(first_row)
   {
-    for (std::vector<float> *field : { &rhs, &result, &e })
+    for (std::vector<float> *field : { &rhs, &result })
       field->assign(l.size(n), 0.f);
+    e.assign(l.row(n, 2 * end_rows + rows_in_work, 0) + 1, 0.f);
     for (std::vector<float> *values : { &zero, &spare })
       values->assign(l.stride(), 0.f);
     coarse_rhs.resize(coarsening.site.size() * n);
@@ -212,23 +231,20 @@ namespace tribodraw
   {
     const float *kx = coefficients(m.kx, iy), *ky = coefficients(m.ky, iy), *above = coefficients(m.ky, iy + 1),
                 *weight = coefficients(coarsening.weight, iy);
-    float *d = row(e, iy, r), *w = &spare[1];
+    float *d = work_row(iy, r), *w = &spare[1];
     row_kernels::from_neighbours(l.nx, d, row(result, iy, r), row(result, iy - 1, r), row(result, iy + 1, r), kx, ky,
                                  above, colour(iy, 0));
     add_border_residual(iy, r, d);
     if (!is_odd(iy))
-      row_kernels::add_from_column(l.nx, d, is_odd(iy - 1) ? row(e, iy - 1, r) : &zero[1],
-                                   is_odd(iy + 1) ? row(e, iy + 1, r) : &zero[1], ky, above);
+      row_kernels::add_from_column(l.nx, d, is_odd(iy - 1) ? work_row(iy - 1, r) : &zero[1],
+                                   is_odd(iy + 1) ? work_row(iy + 1, r) : &zero[1], ky, above);
     row_kernels::scale(l.nx, w, d, weight, parity[1].data());
     close_row(w, l);
     row_kernels::add_from_row(l.nx, d, w, kx);
     for (int c = coarsening.first_site[iy]; c < coarsening.first_site[iy + 1]; ++c)
       coarse_rhs[static_cast<std::size_t>(c) * n + r] = d[coarsening.site[c]];
     if (is_odd(iy))
-      {
-        row_kernels::scale(l.nx, d, d, weight, parity[0].data());
-        row_kernels::add(l.nx, d, w);
-      }
+      row_kernels::scale_and_add(l.nx, d, weight, parity[0].data(), w);
   }
 
   void
@@ -244,17 +260,16 @@ namespace tribodraw
     const float *kx = coefficients(m.kx, iy), *weight = coefficients(coarsening.weight, iy);
     for (int r = 0; r < n; ++r)
       {
-        float *c = row(e, iy, r);
+        float *c = work_row(iy, r);
         std::fill(c, c + l.nx, 0.f);
         for (int s = coarsening.first_site[iy]; s < coarsening.first_site[iy + 1]; ++s)
           c[coarsening.site[s]] = coarse_x[static_cast<std::size_t>(s) * n + r];
         if (is_odd(iy))
-          row_kernels::interpolate_in_column(l.nx, c, row(e, iy - 1, r), row(e, iy + 1, r), coefficients(m.ky, iy),
+          row_kernels::interpolate_in_column(l.nx, c, work_row(iy - 1, r), work_row(iy + 1, r), coefficients(m.ky, iy),
                                              coefficients(m.ky, iy + 1), weight);
         close_row(c, l);
-        row_kernels::interpolate_in_row(l.nx, c, kx, weight, parity[1].data(), &spare[1]);
         float *x = row(result, iy, r);
-        row_kernels::add(l.nx, x, c);
+        row_kernels::interpolate_in_row(l.nx, c, x, kx, weight, parity[1].data(), &spare[1]);
         close_row(x, l);
       }
   }
@@ -274,7 +289,7 @@ namespace tribodraw
   }
 
   void
-  CellMultigrid::Cycle::finish_row(const int iy, const std::vector<double> &residual)
+  CellMultigrid::Cycle::finish_row(const int iy)
   {
     for (const int j : { iy - 1, iy, iy + 1 })
       relax_again(j);
@@ -282,11 +297,26 @@ namespace tribodraw
       remember_end_rows();
     relax(iy, 0);
     for (int r = 0; r < n; ++r)
-      product[r] += row_kernels::dot(l.nx, &residual[l.row(n, iy, r)], row(result, iy, r));
+      {
+        const float *x = row(result, iy, r);
+        product[r] += row_kernels::dot(l.nx, row(rhs, iy, r), x);
+        energy[r] += row_kernels::energy(l.periodic ? l.nx : l.nx + 1, x, x - 1, coefficients(m.kx, iy));
+      }
+    if (iy > 0)
+      add_energy_below(iy);
+  }
+
+  // Of the faces below the row; both rows finished.
+  void
+  CellMultigrid::Cycle::add_energy_below(const int iy)
+  {
+    for (int r = 0; r < n; ++r)
+      energy[r] += row_kernels::energy(l.nx, iy < l.ny ? row(result, iy, r) : &zero[1], row(result, iy - 1, r),
+                                       coefficients(m.ky, iy));
   }
 
   void
-  CellMultigrid::Cycle::run(const std::vector<double> &residual)
+  CellMultigrid::Cycle::run()
   {
     std::fill(stage.begin(), stage.end(), untouched);
     for (std::vector<float> *values : { &first_row, &last_row })
@@ -294,9 +324,12 @@ namespace tribodraw
     for (int iy = 0; iy < l.ny; ++iy)
       restrict_row(iy);
     m.coarse->cycle(n, coarse_rhs.data(), coarse_x.data());
-    product = {};
+    product = energy = {};
     for (int iy = 0; iy < l.ny; ++iy)
-      finish_row(iy, residual);
+      finish_row(iy);
+    add_energy_below(0);
+    if (!l.periodic)
+      add_energy_below(l.ny);
   }
 
   CellMultigrid::CellMultigrid(const CellConductances &conductances)
@@ -324,6 +357,9 @@ namespace tribodraw
 
   CellMultigrid::~CellMultigrid() = default;
 
+  // Only the residual and the solution need all digits, and they must fit each other. Directions are in single
+  // precision, and the lengths of the steps follow from the energy of the preconditioned residual in single precision:
+  // this saves a pass through the arrays, which do not fit into the cache.
   unsigned
   CellMultigrid::solve(const int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, 4> &goal,
                        const unsigned max_iterations) const
@@ -331,13 +367,13 @@ namespace tribodraw
     const CellLayout &l = k.layout;
     Cycle             cycle(*this, n);
     std::copy(rhs.begin(), rhs.end(), cycle.rhs.begin());
-    std::vector<double>       direction(l.size(n), 0.);
-    const std::vector<double> zero(l.stride(), 0.);
-    const auto                direction_row = [&](const int iy, const int r) {
+    std::vector<float>       direction(l.size(n), 0.f);
+    const std::vector<float> zero(l.stride(), 0.f);
+    const auto               direction_row = [&](const int iy, const int r) {
       const int w = CellLayout::wrapped(iy, l.ny, l.periodic);
       return w < 0 ? &zero[1] : &direction[l.row(n, w, r)];
     };
-    std::array<double, 4> product{};
+    std::array<double, 4> beta{}, length{}, product{};
     std::vector<char>     directed(l.ny);
     const auto            direct = [&](const int row_number) {
       const int iy = CellLayout::wrapped(row_number, l.ny, l.periodic);
@@ -346,35 +382,40 @@ namespace tribodraw
       directed[iy] = 1;
       for (int r = 0; r < n; ++r)
         {
-          double *d = &direction[l.row(n, iy, r)];
-          row_kernels::direct(l.nx, d, &cycle.result[l.row(n, iy, r)],
-                              product[r] > 0 ? cycle.product[r] / product[r] : 0.);
+          float *d = &direction[l.row(n, iy, r)];
+          row_kernels::direct(l.nx, d, &cycle.result[l.row(n, iy, r)], static_cast<float>(beta[r]));
           close_row(d, l);
         }
     };
     for (unsigned iteration = 1; iteration <= max_iterations; ++iteration)
       {
-        cycle.run(rhs);
+        cycle.run();
+        for (int r = 0; r < n; ++r)
+          {
+            // Energy of the new direction, which is conjugate to the one before
+            beta[r]       = product[r] > 0 ? cycle.product[r] / product[r] : 0.;
+            double energy = cycle.energy[r] - (beta[r] > 0 ? beta[r] * cycle.product[r] / length[r] : 0.);
+            if (!(energy > least_part * cycle.energy[r]))
+              {
+                beta[r] = 0;
+                energy  = cycle.energy[r];
+              }
+            const double step = cycle.product[r] / energy; // not a number if nothing drives the flow
+            length[r]         = std::isfinite(step) ? step : 0.;
+          }
+        product = cycle.product;
         std::fill(directed.begin(), directed.end(), 0);
-        std::array<double, 4> energy{}, square{};
+        std::array<double, 4> square{};
         for (int iy = 0; iy < l.ny; ++iy)
           {
             for (const int j : { iy - 1, iy, iy + 1 })
               direct(j);
             for (int r = 0; r < n; ++r)
-              energy[r] += row_kernels::energy(l.nx, direction_row(iy, r), direction_row(iy - 1, r),
-                                               direction_row(iy + 1, r), k.x_row(iy), k.y_row(iy), k.y_row(iy + 1));
-          }
-        product = cycle.product;
-        for (int iy = 0; iy < l.ny; ++iy)
-          for (int r = 0; r < n; ++r)
-            {
-              const double step = product[r] / energy[r]; // not a number if nothing drives the flow
               square[r]
                   += row_kernels::step(l.nx, &x[l.row(n, iy, r)], &rhs[l.row(n, iy, r)], &cycle.rhs[l.row(n, iy, r)],
                                        direction_row(iy, r), direction_row(iy - 1, r), direction_row(iy + 1, r),
-                                       k.x_row(iy), k.y_row(iy), k.y_row(iy + 1), std::isfinite(step) ? step : 0.);
-            }
+                                       k.x_row(iy), k.y_row(iy), k.y_row(iy + 1), length[r]);
+          }
         bool done = true;
         for (int r = 0; r < n; ++r)
           done = done && std::sqrt(square[r]) <= goal[r];

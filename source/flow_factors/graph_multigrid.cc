@@ -98,20 +98,29 @@ namespace tribodraw
   {
     middle.reserve(m.size());
     inverse_diagonal.reserve(m.size());
+    diagonal.reserve(m.size());
+    std::vector<int> later;
     for (int i = 0; i < m.size(); ++i)
       {
-        int        out  = m.begin[i];
-        const auto copy = [&](const bool earlier) {
-          for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
-            if ((m.column[e] < i) == earlier)
-              {
-                column[out]     = m.column[e];
-                coupling[out++] = static_cast<Real>(m.coupling[e]);
-              }
-        };
-        copy(true);
+        // Without a branch, which could not be predicted: the later ones are put aside.
+        int out = m.begin[i], n_later = 0;
+        if (static_cast<int>(later.size()) < m.begin[i + 1] - m.begin[i])
+          later.resize(m.begin[i + 1] - m.begin[i]);
+        for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
+          {
+            const bool earlier = m.column[e] < i;
+            column[out]        = m.column[e];
+            coupling[out]      = static_cast<Real>(m.coupling[e]);
+            later[n_later]     = e;
+            out += earlier;
+            n_later += !earlier;
+          }
         middle.push_back(out);
-        copy(false);
+        for (int e = 0; e < n_later; ++e, ++out)
+          {
+            column[out]   = m.column[later[e]];
+            coupling[out] = static_cast<Real>(m.coupling[later[e]]);
+          }
         constexpr double least_conductance = 1e-30; // below is nothing, and single precision ends at 1e-38
         const double     d                 = m.diagonal(i);
         inverse_diagonal.push_back(d > least_conductance ? static_cast<Real>(1 / d) : Real(0));

@@ -22,11 +22,12 @@ namespace tribodraw::row_kernels
 
     // Matrix times p in pixel i, formed from differences.
     inline __attribute__((always_inline)) double
-    image(const int i, const double *p, const double *below, const double *above, const double *kx, const double *ky,
+    image(const int i, const float *p, const float *below, const float *above, const double *kx, const double *ky,
           const double *ky_above)
     {
-      return (kx[i] * (p[i] - p[i - 1]) + kx[i + 1] * (p[i] - p[i + 1]))
-             + (ky[i] * (p[i] - below[i]) + ky_above[i] * (p[i] - above[i]));
+      const double here = p[i];
+      return (kx[i] * (here - p[i - 1]) + kx[i + 1] * (here - p[i + 1]))
+             + (ky[i] * (here - below[i]) + ky_above[i] * (here - above[i]));
     }
   } // namespace
 
@@ -61,10 +62,17 @@ namespace tribodraw::row_kernels
   }
 
   TRIBODRAW_VECTORISED void
-  scale(const int n, float *w, const float *r, const float *weight, const float *colour)
+  scale(const int n, float *__restrict w, const float *r, const float *weight, const float *colour)
   {
     for (int i = 0; i < n; ++i)
       w[i] = colour[i] * (r[i] * weight[i]);
+  }
+
+  TRIBODRAW_VECTORISED void
+  scale_and_add(const int n, float *__restrict r, const float *weight, const float *colour, const float *w)
+  {
+    for (int i = 0; i < n; ++i)
+      r[i] = colour[i] * (r[i] * weight[i]) + w[i];
   }
 
   TRIBODRAW_VECTORISED void
@@ -82,13 +90,16 @@ namespace tribodraw::row_kernels
   }
 
   TRIBODRAW_VECTORISED void
-  interpolate_in_row(const int n, float *__restrict e, const float *kx, const float *weight, const float *colour,
-                     float *__restrict spare)
+  interpolate_in_row(const int n, float *__restrict e, float *__restrict x, const float *kx, const float *weight,
+                     const float *colour, float *__restrict spare)
   {
     for (int i = 0; i < n; ++i)
       spare[i] = colour[i] * weight[i] * (kx[i] * e[i - 1] + kx[i + 1] * e[i + 1]);
     for (int i = 0; i < n; ++i)
-      e[i] += spare[i];
+      {
+        e[i] += spare[i];
+        x[i] += e[i];
+      }
   }
 
   TRIBODRAW_VECTORISED void
@@ -99,51 +110,48 @@ namespace tribodraw::row_kernels
       e[i] += weight[i] * (ky[i] * below[i] + ky_above[i] * above[i]);
   }
 
-  TRIBODRAW_VECTORISED void
-  add(const int n, float *x, const float *e)
-  {
-    for (int i = 0; i < n; ++i)
-      x[i] += e[i];
-  }
-
   TRIBODRAW_VECTORISED double
-  dot(const int n, const double *r, const float *z)
+  dot(const int n, const float *b, const float *z)
   {
     double sum[n_sums] = {};
     int    i           = 0;
     for (; i + n_sums <= n; i += n_sums)
       for (int l = 0; l < n_sums; ++l)
-        sum[l] += r[i + l] * z[i + l];
+        sum[l] += static_cast<double>(b[i + l]) * z[i + l];
     for (; i < n; ++i)
-      sum[0] += r[i] * z[i];
+      sum[0] += static_cast<double>(b[i]) * z[i];
+    return total(sum);
+  }
+
+  TRIBODRAW_VECTORISED double
+  energy(const int n, const float *z, const float *other, const float *k)
+  {
+    double sum[n_sums] = {};
+    int    i           = 0;
+    for (; i + n_sums <= n; i += n_sums)
+      for (int l = 0; l < n_sums; ++l)
+        {
+          const double difference = static_cast<double>(z[i + l]) - other[i + l];
+          sum[l] += k[i + l] * difference * difference;
+        }
+    for (; i < n; ++i)
+      {
+        const double difference = static_cast<double>(z[i]) - other[i];
+        sum[0] += k[i] * difference * difference;
+      }
     return total(sum);
   }
 
   TRIBODRAW_VECTORISED void
-  direct(const int n, double *p, const float *z, const double beta)
+  direct(const int n, float *p, const float *z, const float beta)
   {
     for (int i = 0; i < n; ++i)
       p[i] = z[i] + beta * p[i];
   }
 
   TRIBODRAW_VECTORISED double
-  energy(const int n, const double *p, const double *below, const double *above, const double *kx, const double *ky,
-         const double *ky_above)
-  {
-    double sum[n_sums] = {};
-    int    i           = 0;
-    for (; i + n_sums <= n; i += n_sums)
-      for (int l = 0; l < n_sums; ++l)
-        sum[l] += p[i + l] * image(i + l, p, below, above, kx, ky, ky_above);
-    for (; i < n; ++i)
-      sum[0] += p[i] * image(i, p, below, above, kx, ky, ky_above);
-    return total(sum);
-  }
-
-  TRIBODRAW_VECTORISED double
-  step(const int n, double *__restrict x, double *__restrict r, float *__restrict b, const double *p,
-       const double *below, const double *above, const double *kx, const double *ky, const double *ky_above,
-       const double alpha)
+  step(const int n, double *__restrict x, double *__restrict r, float *__restrict b, const float *p, const float *below,
+       const float *above, const double *kx, const double *ky, const double *ky_above, const double alpha)
   {
     double sum[n_sums] = {};
     int    i           = 0;
@@ -162,6 +170,48 @@ namespace tribodraw::row_kernels
         r[i] -= alpha * image(i, p, below, above, kx, ky, ky_above);
         b[i] = static_cast<float>(r[i]);
         sum[0] += r[i] * r[i];
+      }
+    return total(sum);
+  }
+
+  TRIBODRAW_VECTORISED double
+  add_flux(const int n, double *__restrict flux, const double *k, const double *p0, const double *p1, const double *c0,
+           const double *c1)
+  {
+    double sum[n_sums] = {};
+    int    i           = 0;
+    for (; i + n_sums <= n; i += n_sums)
+      for (int l = 0; l < n_sums; ++l)
+        {
+          const int    j = i + l;
+          const double f = flux[j];
+          flux[j]        = f + k[j] * ((p0[j] - p1[j]) + (c0[j] - c1[j]));
+          sum[l] += f * f;
+        }
+    for (; i < n; ++i)
+      {
+        sum[0] += flux[i] * flux[i];
+        flux[i] += k[i] * ((p0[i] - p1[i]) + (c0[i] - c1[i]));
+      }
+    return total(sum);
+  }
+
+  TRIBODRAW_VECTORISED double
+  excess(const int n, double *__restrict e, const double *x_flux, const double *below, const double *above)
+  {
+    double sum[n_sums] = {};
+    int    i           = 0;
+    for (; i + n_sums <= n; i += n_sums)
+      for (int l = 0; l < n_sums; ++l)
+        {
+          const int j = i + l;
+          e[j]        = (x_flux[j] - x_flux[j + 1]) + (below[j] - above[j]);
+          sum[l] += e[j] * e[j];
+        }
+    for (; i < n; ++i)
+      {
+        e[i] = (x_flux[i] - x_flux[i + 1]) + (below[i] - above[i]);
+        sum[0] += e[i] * e[i];
       }
     return total(sum);
   }

@@ -12,8 +12,8 @@ namespace tribodraw
   class CellCoarsening;
   class GraphMultigrid;
 
-  /// Conjugate gradients in double precision for the five-point system of a local Reynolds cell, preconditioned by one
-  /// multigrid V-cycle in single precision. Several right-hand sides are solved at once.
+  /// Conjugate gradients for the five-point system of a local Reynolds cell, preconditioned by one multigrid V-cycle in
+  /// single precision. Solution and residual are in double precision. Several right-hand sides are solved at once.
   ///
   /// The finest level works on the arrays of the map: red-black Gauss-Seidel, and the interpolation of CellCoarsening,
   /// which follows the jumps of h^3. All coarser levels are those of GraphMultigrid.
