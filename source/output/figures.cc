@@ -94,6 +94,8 @@ namespace tribodraw::figures
                folder / "table_solid_shear");
     plot::draw(family("Boundary friction coefficient", "Friction coefficient", "mu_boundary"),
                folder / "table_friction_coefficient");
+    plot::draw(family("Pressure flow factor ΦP xx", "Flow factor", "phi_p_xx"), folder / "table_phi_p");
+    plot::draw(family("Shear flow factor ΦS xx", "Flow factor", "phi_s_xx"), folder / "table_phi_s");
   }
 
   void

@@ -115,7 +115,17 @@ a{color:var(--accent)}
       Figure{ "table_contact_fraction", "Real contact fraction over solid pressure." },
       Figure{ "table_film_thickness", "Mean film thickness in the gap over solid pressure." },
       Figure{ "table_solid_shear", "Shear stress of the solid contacts over solid pressure." },
-      Figure{ "table_friction_coefficient", "Friction coefficient of the boundary regime over solid pressure." }
+      Figure{ "table_friction_coefficient", "Friction coefficient of the boundary regime over solid pressure." },
+      Figure{ "table_phi_p", "Pressure flow factor of the flattened surface over solid pressure." },
+      Figure{ "table_phi_s", "Shear flow factor of the flattened surface over solid pressure." },
+      Figure{ "sweep_speed",
+              "Stribeck curve: friction, the asperities' part of it and the share of the load on the lubricant." },
+      Figure{ "sweep_pressure", "Friction over the nominal pressure." },
+      Figure{ "sweep_strain", "Friction over the plastic strain of the strip." },
+      Figure{ "sweep_amount", "Friction over the amount of lubricant." },
+      Figure{ "sweep_viscosity", "Friction over the viscosity." },
+      Figure{ "strip_pressure", "Pressures along the contact; the strip moves along x." },
+      Figure{ "strip_gap", "Mean gap and lubricant in it along the contact." }
     };
 
     /// The SVG element of a file, made fit for a page with others: its ids are unique and black follows the text

@@ -87,12 +87,20 @@ namespace tribodraw
         {
           const auto scope = p.section("Friction table");
           if (p.has("File"))
-            table_file = p.input_file(
-                "File",
-                "friction_table.json of the pair; without it the table is built from the surfaces described here.");
+            {
+              table_file = p.input_file(
+                  "File",
+                  "friction_table.json of the pair; without it the table is built from the surfaces described here.");
+              p.mark_unselected(""); // what else stands in this section serves to build a table
+            }
+          read_band(p);
         }
-        if (table_file.empty())
+        if (table_file.empty() || p.documentation_mode())
           builder = std::make_unique<FrictionTableBuilder>(FrictionTableBuilder::read(p));
+        else
+          for (const char *section :
+               { "Sheet surface", "Tool surface", "Sheet material", "Flattening", "Flow factors", "Boundary friction" })
+            p.mark_unselected(section);
       }
 
       std::string
@@ -347,10 +355,27 @@ namespace tribodraw
         const auto all = solve_all(contact, points, "Sweep over " + sweep.name);
         if (parallel::rank() != 0)
           return;
-        CsvTable csv({ "pressure_mpa", "speed_mm_per_s", "eps_p", "amount_g_per_m2", "viscosity_mpa_s", "hersey_number",
-                       "mu", "solid_friction", "viscous_friction", "solid_share", "lubricant_share", "mean_film_um",
-                       "film_over_sq", "contact_fraction", "max_lubricant_pressure_mpa", "starved_fraction",
-                       "flow_error", "load_error", "regime" });
+        CsvTable csv({ "pressure_mpa",
+                       "speed_mm_per_s",
+                       "eps_p",
+                       "amount_g_per_m2",
+                       "viscosity_mpa_s",
+                       "hersey_number",
+                       "mu",
+                       "solid_friction",
+                       "viscous_friction",
+                       "solid_share",
+                       "lubricant_share",
+                       "mean_film_um",
+                       "film_over_sq",
+                       "contact_fraction",
+                       "max_lubricant_pressure_mpa",
+                       "starved_fraction",
+                       "flow_error",
+                       "load_error",
+                       "mu_lowest",
+                       "mu_highest",
+                       "regime" });
         for (std::size_t i = 0; i < points.size(); ++i)
           {
             const double *r = &all[i * n_numbers];

@@ -190,6 +190,49 @@ class Runs(InFolder):
                          "phi_p_xx,phi_p_yy,phi_s_xx,phi_s_yy")
         self.assertEqual(len(self.rows("first/friction_table.csv")), 4)
 
+    def test_scatter_strip_draw_and_export(self):
+        tool = [s.replace("Sheet", "Tool") for s in SMALL]
+        quick = ["--set", "Friction table/Cut heights = 4", "--set", "Friction table/Interpolation error = 0.2"]
+        self.run_program(self.prm("friction_table"), "--quiet", "--output", "table", *SMALL, *tool, *quick,
+                         "--set", "Scatter/Seeds = 2, 3")
+        self.assertEqual(list(self.rows("table/scatter.csv")[0])[:6],
+                         ["p_solid_mpa", "eps_p", "contact_fraction_mean", "contact_fraction_sd", "contact_fraction_min",
+                          "contact_fraction_max"])
+        self.assertGreater(max(float(r["contact_fraction_sd"]) for r in self.rows("table/scatter.csv")), 0)
+        given = self.folder / "table"
+        band = ", ".join(str(given / f"friction_table_map_{i}.json") for i in (1, 2, 3))
+        sweeps = ["--set", f"Friction table/File = {given / 'friction_table.json'}", "--set", f"Friction table/Band files = {band}",
+                  "--set", "Strip draw/Sweep/Pressures = 2, 4, 8 MPa", "--set", "Strip draw/Sweep/Speeds = 3, 10, 100, 1000 mm/s"]
+        files = self.run_twice("strip_draw", *sweeps)
+        self.assertLessEqual({"results.csv", "strip_profile.csv", "sweep_speed.csv", "sweep_amount.csv", "sweep_speed.svg",
+                              "strip_pressure.svg", "friction_coefficient.json", "friction_coefficient.csv"}, files)
+        for row in self.rows("first/sweep_amount.csv"):
+            self.assertLessEqual(float(row["mu_lowest"]), float(row["mu"]))
+            self.assertLess(float(row["flow_error"]), 1e-12)
+        amounts = [float(r["mu"]) for r in self.rows("first/sweep_amount.csv")]
+        self.assertLess(amounts[-1], 0.8 * amounts[0])  # more lubricant, less friction
+        self.assertEqual(len(self.rows("first/friction_coefficient.csv")), 3 * 4 * 5)
+        # Ranks share the points and come to the same bytes.
+        self.run_program(self.prm("strip_draw"), "--quiet", "--output", "ranks", *sweeps, launcher=[MPIEXEC, "--allow-run-as-root",
+                                  "--oversubscribe", "-np", "2"])
+        for file in "sweep_speed.csv", "friction_coefficient.csv":
+            self.assertEqual((self.folder / "ranks" / file).read_bytes(), (self.folder / "first" / file).read_bytes())
+        # Export, beside the table and to a named file; a fit that is not good enough leaves nothing.
+        coefficients = str(self.folder / "first/friction_coefficient.json")
+        for name, file in {"abaqus": "_abaqus.inp", "ls-dyna": "_ls-dyna.k", "csv": "_export.csv", "json": "_export.json"}.items():
+            self.run_program("export", coefficients, "--format", name)
+            self.assertGreater((self.folder / f"first/friction_coefficient{file}").stat().st_size, 100)
+        self.run_program("export", coefficients, "--format", "openradioss", "--strain", "0.05", "--max-error", "0.5", "--to", "x.rad")
+        self.assertIn("/FRICTION/1", (self.folder / "x.rad").read_text())
+        result = self.run_program("export", coefficients, "--format", "openradioss", "--max-error", "1e-9", "--to", "y.rad", code=2)
+        self.assertIn("--max-error", result.stderr)
+        self.assertFalse((self.folder / "y.rad").exists())
+        self.run_program("export", coefficients, "--format", "csv", "--to", coefficients, code=2)
+        self.run_program("export", str(self.folder / "first/results.csv"), "--format", "csv", code=2)
+        # A tool that asks for more pressure than the table holds.
+        result = self.run_program(self.prm("strip_draw"), "--output", "third", *sweeps, "--set", "Strip draw/Pressure = 400 MPa", code=2)
+        self.assertIn("Friction table/Pressures", result.stderr)
+
     def test_not_converged_is_exit_code_3_with_a_report(self):
         # At this viscosity the pressure would reach some 150 MPa without Barus' law, which then multiplies it by 10^4.
         barus = "Lubricant/Barus/Pressure coefficient"

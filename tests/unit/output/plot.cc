@@ -120,7 +120,22 @@ TEST(Figures, flow_factors_and_friction_table_with_the_columns_of_the_files)
       "10,0.1,2,0.3,1,1.2,0.12,1,1,0,0\n");
   figures::draw_all(folder.path());
   expect_figures(folder, { "phi_p", "phi_s", "table_contact_fraction", "table_film_thickness", "table_solid_shear",
-                           "table_friction_coefficient" });
+                           "table_friction_coefficient", "table_phi_p", "table_phi_s" });
+}
+
+TEST(Figures, strip_draw_folder)
+{
+  const TemporaryFolder folder;
+  write_file(folder / "strip_profile.csv",
+             "x_mm,gap_um,solid_pressure_mpa,lubricant_pressure_mpa,film_fraction,contact_fraction\n"
+             "-0.1,4,0,0,0.5,0\n0,2,5,1,1,0.1\n10,2,6,0,1,0.1\n");
+  for (const char *name : { "pressure", "speed", "strain", "amount", "viscosity" })
+    write_file(folder / ("sweep_" + std::string(name) + ".csv"),
+               "pressure_mpa,speed_mm_per_s,eps_p,amount_g_per_m2,viscosity_mpa_s,mu,solid_friction,lubricant_share,"
+               "mu_lowest,mu_highest\n1,1,0,1,10,0.1,0.1,0.01,0.09,0.11\n2,10,0.1,2,30,0.08,0.08,0.2,0.07,0.1\n");
+  figures::draw_all(folder.path());
+  expect_figures(folder, { "strip_pressure", "strip_gap", "sweep_pressure", "sweep_speed", "sweep_strain",
+                           "sweep_amount", "sweep_viscosity" });
 }
 
 TEST(Figures, forming_folder)
