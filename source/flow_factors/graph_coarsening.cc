@@ -11,6 +11,57 @@ namespace tribodraw
     // the least ratio of the neighbour's onward coupling to that between the two for this way to count. Of 0.1 to 0.5
     // and 0.02 to 0.3 these take the fewest iterations, from no contact to percolation.
     constexpr double least_seen = 0.5, least_onward = 0.3;
+
+    // Collects rows of a sparse matrix, adding up entries of the same column. No branch depends on whether an entry is
+    // new: that could not be predicted.
+    class RowCollector
+    {
+    public:
+      RowCollector(std::vector<int> &column_in, std::vector<double> &value_in, const int n_columns)
+          : column(column_in), value(value_in), place(n_columns, -1)
+      {
+      }
+      /// Next row; makes room for @p most entries.
+      void
+      start(const int most)
+      {
+        first = end;
+        if (column.size() < static_cast<std::size_t>(end) + most)
+          {
+            const std::size_t size = column.size() + column.size() / 2 + most;
+            column.resize(size);
+            value.resize(size);
+          }
+      }
+      void
+      add(const int to, const double v)
+      {
+        const int  old   = place[to];
+        const bool found = old >= first;
+        const int  p     = found ? old : end;
+        place[to]        = p;
+        column[p]        = to;
+        value[p]         = (found ? value[p] : 0.) + v;
+        end += !found;
+      }
+      int
+      size() const
+      {
+        return end;
+      }
+      void
+      finish()
+      {
+        column.resize(end);
+        value.resize(end);
+      }
+
+    private:
+      std::vector<int>    &column;
+      std::vector<double> &value;
+      std::vector<int>     place; // last entry of each column
+      int                  first = 0, end = 0;
+    };
   } // namespace
 
   void
@@ -77,8 +128,7 @@ namespace tribodraw
   {
     double sum = 0;
     for (int e = m.begin[j]; e < m.begin[j + 1]; ++e)
-      if (seen_from[m.column[e]] == i && m.coupling[e] > 0)
-        sum += m.coupling[e];
+      sum += seen_from[m.column[e]] == i && m.coupling[e] > 0 ? m.coupling[e] : 0.;
     return sum;
   }
 
@@ -190,32 +240,27 @@ namespace tribodraw
   GraphCoarsening::image() const
   {
     Rows a;
+    a.begin.reserve(m.size() + 1);
     a.begin.push_back(0);
-    a.column.reserve(m.column.size());
-    a.value.reserve(m.column.size());
-    std::vector<int> place(n_coarse, -1);
+    a.column.resize(m.column.size());
+    a.value.resize(m.column.size());
+    RowCollector row(a.column, a.value, n_coarse);
     for (int i = 0; i < m.size(); ++i)
       {
-        const int  start = static_cast<int>(a.column.size());
-        const auto add   = [&](const int j, const double factor) {
+        int most = begin[i + 1] - begin[i];
+        for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
+          most += begin[m.column[e] + 1] - begin[m.column[e]];
+        row.start(most + 1);
+        const auto add = [&](const int j, const double factor) {
           for (int e = begin[j]; e < begin[j + 1]; ++e)
-            {
-              int &p = place[column[e]];
-              if (p >= start)
-                a.value[p] += factor * weight[e];
-              else
-                {
-                  p = static_cast<int>(a.column.size());
-                  a.column.push_back(column[e]);
-                  a.value.push_back(factor * weight[e]);
-                }
-            }
+            row.add(column[e], factor * weight[e]);
         };
         add(i, m.diagonal(i));
         for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
           add(m.column[e], -m.coupling[e]);
-        a.begin.push_back(static_cast<int>(a.column.size()));
+        a.begin.push_back(row.size());
       }
+    row.finish();
     return a;
   }
 
@@ -259,30 +304,22 @@ namespace tribodraw
         }
     set_ground(coarse, t);
     coarse.begin.push_back(0);
-    coarse.column.reserve(9 * static_cast<std::size_t>(n_coarse));
-    coarse.coupling.reserve(9 * static_cast<std::size_t>(n_coarse));
-    std::vector<int> place(n_coarse, -1);
+    coarse.column.resize(9 * static_cast<std::size_t>(n_coarse));
+    coarse.coupling.resize(9 * static_cast<std::size_t>(n_coarse));
+    RowCollector row(coarse.column, coarse.coupling, n_coarse);
     for (int q = 0; q < n_coarse; ++q)
       {
-        const int start = static_cast<int>(coarse.column.size());
+        int most = 1;
+        for (int f = t.begin[q]; f < t.begin[q + 1]; ++f)
+          most += a.begin[t.column[f] + 1] - a.begin[t.column[f]];
+        row.start(most);
         for (int f = t.begin[q]; f < t.begin[q + 1]; ++f)
           for (int e = a.begin[t.column[f]]; e < a.begin[t.column[f] + 1]; ++e)
-            {
-              const int    to    = a.column[e];
-              const double value = -t.value[f] * a.value[e];
-              if (to == q)
-                continue;
-              if (place[to] >= start)
-                coarse.coupling[place[to]] += value;
-              else
-                {
-                  place[to] = static_cast<int>(coarse.column.size());
-                  coarse.column.push_back(to);
-                  coarse.coupling.push_back(value);
-                }
-            }
-        coarse.begin.push_back(static_cast<int>(coarse.column.size()));
+            if (a.column[e] != q)
+              row.add(a.column[e], -t.value[f] * a.value[e]);
+        coarse.begin.push_back(row.size());
       }
+    row.finish();
     return coarse;
   }
 } // namespace tribodraw
