@@ -35,7 +35,8 @@ namespace tribodraw
           throw InputError(
               describe_error("Sheet and tool maps have different grids", "`Sheet surface` and `Tool surface`",
                              grid(a) + " and " + grid(b), "the same pixels",
-                             "Generate the tool surface on the grid of the sheet, or resample one of them before."));
+                             "Generate the tool surface on the grid of the sheet, or resample one of them with "
+                             "`Processing/Resample to`."));
         }
     }
 

@@ -36,7 +36,8 @@ namespace tribodraw
       carried    ///< no tool here: the lubricant stays on the sheet, p = 0, the volume is not bounded
     };
 
-    /// `fixed` of the base is not used; `kind` says what holds. A `carried` node needs no film and no viscosity.
+    /// `fixed` and `squeeze` of the base are not used: `kind` says what holds, and closing gaps show in the volume. A
+    /// `carried` node needs no film and no viscosity.
     struct NodeData : AverageReynolds::NodeData
     {
       Kind   kind   = Kind::film;
