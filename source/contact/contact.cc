@@ -13,8 +13,8 @@ namespace tribodraw
   ContactTool::distance(const Vector3d &x) const
   {
     if (!mirrored)
-      return geometry->distance(Vector3d(x[0], x[1], x[2] - z));
-    ToolDistance d = geometry->distance(Vector3d(x[0], x[1], z - x[2]));
+      return geometry->distance(x - place);
+    ToolDistance d = geometry->distance(Vector3d(x[0] - place[0], x[1] - place[1], place[2] - x[2]));
     d.normal[2]    = -d.normal[2];
     for (int i = 0; i < 2; ++i)
       {
@@ -31,6 +31,7 @@ namespace tribodraw
     , area(shell.node_current_area())
     , pair(tool.size(), std::vector<NodeTool>(shell.n_nodes()))
     , tool_force(tool.size(), Vector3d::Zero())
+    , node_force(shell.n_nodes(), Vector3d::Zero())
   {
     for (const double h : shell.node_thickness())
       half_thickness.push_back(0.5 * h);
@@ -43,7 +44,7 @@ namespace tribodraw
                     std::vector<Vector3d>(shell.n_nodes(), Vector3d::Zero())};
       }
     for (auto &t : tool)
-      t.committed_z = t.z;
+      t.committed_place = t.place;
   }
 
   void
@@ -106,7 +107,7 @@ namespace tribodraw
     const double    friction   = mu[static_cast<int>(rigid.face)][node];
     const double    dc         = settings.stick_slip;
     const Matrix3d  P          = Matrix3d::Identity() - at.normal * at.normal.transpose();
-    const Vector3d  sliding    = P * (x - sheet.committed().position[node] - Vector3d(0, 0, rigid.z - rigid.committed_z));
+    const Vector3d  sliding    = P * (x - sheet.committed().position[node] - rigid.motion());
     const Vector3d  slip       = P * n.slip + sliding;
     const double    amount     = slip.norm();
     const bool      slides     = amount > dc;
@@ -145,22 +146,23 @@ namespace tribodraw
     const int extra = static_cast<int>(sheet.n_dofs()) + t.free_index;
     for (unsigned i = 0; i < 3; ++i)
       {
-        tangent.add(static_cast<int>(sheet.dof(node, i)), extra, -K(i, 2));
-        tangent.add(extra, static_cast<int>(sheet.dof(node, i)), -K(2, i));
+        tangent.add(static_cast<int>(sheet.dof(node, i)), extra, -K.row(i).dot(t.axis));
+        tangent.add(extra, static_cast<int>(sheet.dof(node, i)), -K.col(i).dot(t.axis));
       }
-    tangent.add(extra, extra, K(2, 2));
+    tangent.add(extra, extra, t.axis.dot(K * t.axis));
   }
 
   void
-  Contact::assemble(Eigen::VectorXd           &residual,
-                    SparseMatrix              *tangent,
-                    const Options             &options,
-                    const std::vector<double> *motion,
-                    Eigen::VectorXd           *tool_sensitivity)
+  Contact::assemble(Eigen::VectorXd             &residual,
+                    SparseMatrix                *tangent,
+                    const Options               &options,
+                    const std::vector<Vector3d> *motion,
+                    Eigen::VectorXd             *tool_sensitivity)
   {
     if (tool_sensitivity)
       tool_sensitivity->setZero(residual.size());
     scale = 0;
+    std::fill(node_force.begin(), node_force.end(), Vector3d::Zero());
     const bool adds_tangent = tangent && parallel::rank() == 0;
     for (unsigned t = 0; t < tool.size(); ++t)
       {
@@ -176,17 +178,28 @@ namespace tribodraw
               continue;
             scale += force.norm();
             tool_force[t] -= force;
+            node_force[node] += force;
             for (unsigned i = 0; i < 3; ++i)
               residual[sheet.dof(node, i)] -= force[i];
             if (extra >= 0)
-              residual[extra] += force[2];
-            if (tool_sensitivity && motion && (*motion)[t] != 0)
+              residual[extra] += force.dot(tool[t].axis);
+            if (tool_sensitivity && motion)
               for (unsigned i = 0; i < 3; ++i)
-                (*tool_sensitivity)[sheet.dof(node, i)] -= K(i, 2) * (*motion)[t];
+                (*tool_sensitivity)[sheet.dof(node, i)] -= K.row(i).dot((*motion)[t]);
             if (adds_tangent)
               add_tangent(*tangent, node, tool[t], K);
           }
       }
+  }
+
+  Loads
+  Contact::frozen_forces() const
+  {
+    Loads loads;
+    for (unsigned node = 0; node < sheet.n_nodes(); ++node)
+      if (node_force[node].squaredNorm() > 0)
+        loads.add_point_force(node, node_force[node]);
+    return loads;
   }
 
   void
@@ -222,7 +235,7 @@ namespace tribodraw
             n.slid       = n.trial_slides;
             n.last_slide = n.trial_sliding.norm();
           }
-        tool[t].committed_z = tool[t].z;
+        tool[t].committed_place = tool[t].place;
       }
     area = sheet.node_current_area();
     for (unsigned i = 0; i < sheet.n_nodes(); ++i)
@@ -247,7 +260,8 @@ namespace tribodraw
     for (unsigned t = 0; t < tool.size(); ++t)
       {
         values.clear();
-        values.push_back(tool[t].committed_z);
+        for (int i = 0; i < 3; ++i)
+          values.push_back(tool[t].committed_place[i]);
         for (const auto &n : pair[t])
           {
             for (int i = 0; i < 3; ++i)
@@ -279,9 +293,10 @@ namespace tribodraw
   {
     for (unsigned t = 0; t < tool.size(); ++t)
       {
-        const auto &values = archive.numbers("contact/tool " + std::to_string(t), 1 + 9 * pair[t].size());
+        const auto &values = archive.numbers("contact/tool " + std::to_string(t), 3 + 9 * pair[t].size());
         std::size_t k      = 0;
-        tool[t].z = tool[t].committed_z = values[k++];
+        for (int i = 0; i < 3; ++i)
+          tool[t].place[i] = tool[t].committed_place[i] = values[k++];
         for (auto &n : pair[t])
           {
             for (int i = 0; i < 3; ++i)

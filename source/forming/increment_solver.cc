@@ -51,6 +51,9 @@ namespace tribodraw
                                                            Default{"4", "3 to 8 iterations each"}));
     s.closing_time       = p.quantity("Closing time", "s", Range::positive(), "Time in which the blank holder closes.",
                                       Default{"0.1 s", "only sets the small strain rates while the sheet is clamped"});
+    s.viscosity = p.quantity("Stabilisation viscosity", "MPa s/mm", Range::between(0, 1e3),
+                             "Traction per velocity of the blank that resists its motion, on its undeformed area; the work against it is reported.",
+                             Default{"0 MPa s/mm", "none is needed for convergence"});
     if (s.smallest_increment > s.first_increment || s.first_increment > s.largest_increment)
       p.problem("First increment", "the increments are not in order.", "Smallest increment <= First increment <= Largest increment");
     return s;
@@ -65,8 +68,11 @@ namespace tribodraw
     , K(sheet.make_matrix(n_free_tools))
     , solver(DirectSolver::Symmetry::unsymmetric)
     , R(Eigen::VectorXd::Zero(sheet.n_dofs() + n_free_tools))
+    , reaction(Eigen::VectorXd::Zero(sheet.n_dofs()))
+    , free_travel(n_free_tools, 0.)
   {
     fixed.resize(shell.n_dofs() + n_free, false);
+    held = fixed;
   }
 
   void
@@ -75,32 +81,65 @@ namespace tribodraw
     auto &tools = contact.tools();
     for (unsigned t = 0; t < tools.size(); ++t)
       if (tools[t].free_index < 0)
-        tools[t].z = tools[t].committed_z + (at_end ? load.motion[t] : 0.);
+        tools[t].place = tools[t].committed_place + (at_end ? load.motion[t] : Eigen::Vector3d::Zero());
       else
-        tools[t].z = free_z[tools[t].free_index];
+        tools[t].place = tools[t].committed_place + free_travel[tools[t].free_index] * tools[t].axis;
   }
 
   bool
   IncrementSolver::evaluate(const Load &load, const Shell::AssemblyOptions &options)
   {
     K.set_zero();
-    const bool valid = shell.assemble(load.dt, options, R, &K);
-    const timing::Scope scope("contact/assemble");
+    if (!shell.assemble(load.dt, options, R, &K))
+      return false;
+    load_scale = 0;
+    for (const Load::External &e : load.external)
+      {
+        e.loads->subtract(shell, e.after, R, &K);
+        load_scale += std::max(std::abs(e.before), std::abs(e.after)) * e.loads->forces(shell).lpNorm<1>();
+      }
+    if (settings.viscosity > 0)
+      resist_motion(load.dt);
     set_tools(load, true);
-    contact.assemble(R, &K, {});
-    for (unsigned i = 0; i < n_free; ++i)
-      R[shell.n_dofs() + i] += load.free_force[i];
-    for (std::size_t i = 0; i < fixed.size(); ++i)
-      if (fixed[i])
-        R[i] = 0;
-    return valid;
+    if (load.contact)
+      {
+        const timing::Scope scope("contact/assemble");
+        contact.assemble(R, &K, {});
+        for (unsigned i = 0; i < n_free; ++i)
+          R[shell.n_dofs() + i] -= load.free_force[i];
+      }
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (held[i])
+        {
+          if (i < shell.n_dofs())
+            reaction[i] = R[i];
+          R[i] = 0;
+        }
+    support_scale = load.prescribed.size() ? (load.prescribed.array() != 0).select(reaction, 0.).lpNorm<1>() : 0.;
+    return true;
+  }
+
+  void
+  IncrementSolver::resist_motion(const double dt)
+  {
+    const auto &now = shell.trial().position, &before = shell.committed().position;
+    for (unsigned node = 0; node < shell.n_nodes(); ++node)
+      {
+        const double resistance = settings.viscosity * shell.node_reference_area()[node] / dt;
+        for (unsigned c = 0; c < 3; ++c)
+          {
+            const auto i = static_cast<int>(shell.dof(node, c));
+            R[i] += resistance * (now[node][c] - before[node][c]);
+            if (parallel::rank() == 0)
+              K.add(i, i, resistance);
+          }
+      }
   }
 
   double
-  IncrementSolver::residual_norm(const Eigen::VectorXd &r) const
+  IncrementSolver::force_scale() const
   {
-    // moments [N mm] count like forces at 1 mm
-    return r.norm();
+    return std::max(contact.force_scale() + load_scale + support_scale, 1e-6);
   }
 
   double
@@ -129,7 +168,16 @@ namespace tribodraw
     const Eigen::VectorXd step = factor * du;
     shell.move(step);
     for (unsigned i = 0; i < n_free; ++i)
-      free_z[i] += step[shell.n_dofs() + i];
+      free_travel[i] += step[shell.n_dofs() + i];
+  }
+
+  void
+  IncrementSolver::restart()
+  {
+    shell.revert();
+    std::fill(free_travel.begin(), free_travel.end(), 0.);
+    for (auto &t : contact.tools())
+      t.place = t.committed_place;
   }
 
   bool
@@ -141,36 +189,56 @@ namespace tribodraw
     if (!shell.assemble(without_rate, options, R, &K))
       return false;
     set_tools(load, false);
-    Contact::Options frozen;
-    frozen.frozen = true;
-    Eigen::VectorXd sensitivity;
-    contact.assemble(R, &K, frozen, &load.motion, &sensitivity);
-    // The committed state is in equilibrium: only what moves the tools is unbalanced.
-    du = -sensitivity;
-    K.eliminate(fixed, parallel::rank() == 0 ? 1. : 0.);
-    for (std::size_t i = 0; i < fixed.size(); ++i)
-      if (fixed[i])
+    // The committed state is in equilibrium: only what moves or loads it is unbalanced.
+    Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(K.size());
+    if (load.contact)
+      {
+        Contact::Options frozen;
+        frozen.frozen = true;
+        contact.assemble(R, &K, frozen, &load.motion, &unbalanced);
+      }
+    for (const Load::External &e : load.external)
+      {
+        e.loads->subtract(shell, e.after - e.before, unbalanced, nullptr);
+        e.loads->subtract(shell, e.before, R, &K);
+      }
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(K.size());
+    if (load.prescribed.size())
+      {
+        given.head(shell.n_dofs()) = load.prescribed;
+        std::vector<double> forces(K.size());
+        Eigen::Map<Eigen::VectorXd>(forces.data(), K.size()) = K.multiply(given);
+        parallel::sum(forces);
+        unbalanced += Eigen::Map<const Eigen::VectorXd>(forces.data(), K.size());
+      }
+    du = -unbalanced;
+    K.eliminate(held, parallel::rank() == 0 ? 1. : 0.);
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (held[i])
         du[i] = 0;
     const timing::Scope scope("forming/linear solver");
     if (!solver.factor(K))
       return false;
     solver.solve(du);
-    double travel = 0;
-    for (const double m : load.motion)
-      travel = std::max(travel, std::abs(m));
-    const double largest = largest_displacement(du);
-    if (!std::isfinite(largest))
+    if (!du.allFinite())
       return false;
-    if (largest > 5 * travel)
+    double travel = largest_displacement(given);
+    for (const Eigen::Vector3d &m : load.motion)
+      travel = std::max(travel, m.norm());
+    const double largest = largest_displacement(du);
+    if (travel > 0 && largest > 5 * travel)
       du *= 5 * travel / largest;
+    else if (travel == 0)
+      limit(du);
+    du += given;
     return true;
   }
 
   bool
   IncrementSolver::line_search(const Load &load, const Shell::AssemblyOptions &options, const Eigen::VectorXd &du, double &norm)
   {
-    const auto                start   = shell.trial();
-    const std::vector<double> start_z = free_z;
+    const auto                start        = shell.trial();
+    const std::vector<double> start_travel = free_travel;
     const double              norm0 = norm, slope0 = du.dot(R);
     double                    s     = 1;
     for (unsigned attempt = 0; attempt < 5; ++attempt)
@@ -178,12 +246,12 @@ namespace tribodraw
         if (attempt > 0)
           {
             shell.set_trial(start);
-            free_z = start_z;
+            free_travel = start_travel;
           }
         apply(du, s);
         const bool   valid = evaluate(load, options);
         const double slope = du.dot(R);
-        norm               = residual_norm(R);
+        norm               = R.norm(); // moments [N mm] count like forces at 1 mm
         if (valid && std::isfinite(norm) && (std::abs(slope) <= 0.9 * std::abs(slope0) || norm < norm0 || attempt == 4))
           return true;
         const double secant = valid && std::isfinite(slope) && slope0 != slope ? slope0 / (slope0 - slope) : 0.4;
@@ -192,46 +260,84 @@ namespace tribodraw
     return false;
   }
 
+  Eigen::VectorXd
+  IncrementSolver::increment() const
+  {
+    Eigen::VectorXd                   u   = Eigen::VectorXd::Zero(shell.n_dofs());
+    const Shell::Configuration &now = shell.trial(), &before = shell.committed();
+    for (unsigned node = 0; node < shell.n_nodes(); ++node)
+      {
+        for (unsigned c = 0; c < 3; ++c)
+          u[shell.dof(node, c)] = now.position[node][c] - before.position[node][c];
+        // the rotation vector that turns the director along a great circle
+        const double          cosine  = std::clamp(now.director[node].dot(before.director[node]), -1., 1.);
+        const Eigen::Vector3d towards = now.director[node] - cosine * before.director[node];
+        const double          sine    = towards.norm();
+        if (sine > 0)
+          for (unsigned t = 0; t < 2; ++t)
+            u[shell.dof(node, 3 + t)] = std::atan2(sine, cosine) / sine * towards.dot(before.frame[node][t]);
+      }
+    return u;
+  }
+
+  void
+  IncrementSolver::account(const Load &load, const Eigen::VectorXd &loads_before, const Eigen::VectorXd &reaction_before, Outcome &outcome) const
+  {
+    const Eigen::VectorXd u     = increment();
+    Eigen::VectorXd       loads = loads_before;
+    for (const Load::External &e : load.external)
+      loads += e.after * e.loads->forces(shell);
+    for (unsigned node = 0; node < shell.n_nodes() && settings.viscosity > 0; ++node)
+      outcome.stabilisation_work += settings.viscosity / load.dt * shell.node_reference_area()[node] *
+                                    (shell.trial().position[node] - shell.committed().position[node]).squaredNorm();
+    outcome.load_work    = 0.5 * loads.dot(u);
+    outcome.support_work = load.prescribed.size() ? 0.5 * (reaction_before + reaction).dot(load.prescribed) : 0.;
+  }
+
   IncrementSolver::Outcome
   IncrementSolver::solve(const Load &load)
   {
     Outcome outcome;
-    shell.revert();
-    free_z.resize(n_free);
-    bool moving = false;
-    for (unsigned t = 0; t < contact.tools().size(); ++t)
+    restart();
+    held = fixed;
+    if (!load.contact)
+      std::fill(held.begin() + shell.n_dofs(), held.end(), true);
+    const Eigen::VectorXd reaction_before = reaction;
+    Eigen::VectorXd       loads_before    = Eigen::VectorXd::Zero(shell.n_dofs());
+    bool                  changes         = load.prescribed.size() && load.prescribed.squaredNorm() > 0;
+    for (const Load::External &e : load.external)
       {
-        if (contact.tools()[t].free_index >= 0)
-          free_z[contact.tools()[t].free_index] = contact.tools()[t].committed_z;
-        moving = moving || load.motion[t] != 0;
+        loads_before += e.before * e.loads->forces(shell);
+        changes = changes || e.after != e.before;
       }
+    for (const Eigen::Vector3d &m : load.motion)
+      changes = changes || m.squaredNorm() > 0;
     const auto give_up = [&](const std::string &reason) {
-      shell.revert();
-      for (auto &t : contact.tools())
-        t.z = t.committed_z;
+      restart();
+      reaction       = reaction_before;
       outcome.reason = reason;
       return outcome;
     };
 
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(K.size());
+    if (load.prescribed.size())
+      given.head(shell.n_dofs()) = load.prescribed;
     Eigen::VectorXd du;
-    if (moving && predict(load, du))
-      apply(du, 1.);
+    apply(changes && predict(load, du) ? du : given, 1.);
     Shell::AssemblyOptions options;
     if (!evaluate(load, options))
       {
         // the predictor went too far: start from the committed state
-        shell.revert();
-        for (unsigned t = 0; t < contact.tools().size(); ++t)
-          if (contact.tools()[t].free_index >= 0)
-            free_z[contact.tools()[t].free_index] = contact.tools()[t].committed_z;
+        restart();
+        apply(given, 1.);
         if (!evaluate(load, options))
           return give_up("a material point or an element cannot follow the increment");
       }
-    double   norm = residual_norm(R), best = norm;
+    double   norm = R.norm(), best = norm;
     unsigned since_progress = 0;
     for (outcome.iterations = 1; outcome.iterations <= settings.max_iterations; ++outcome.iterations)
       {
-        K.eliminate(fixed, parallel::rank() == 0 ? 1. : 0.);
+        K.eliminate(held, parallel::rank() == 0 ? 1. : 0.);
         {
           const timing::Scope scope("forming/linear solver");
           if (!solver.factor(K))
@@ -242,16 +348,17 @@ namespace tribodraw
         if (!du.allFinite())
           return give_up("the linear solver gave no finite correction");
         limit(du);
-        const bool far         = norm > far_from_solution * contact.force_scale();
-        options.tension_only   = far;
-        options.elastic_blend  = far ? elastic_share : 0.;
+        const bool far        = norm > far_from_solution * force_scale();
+        options.tension_only  = far;
+        options.elastic_blend = far ? elastic_share : 0.;
         if (!line_search(load, options, du, norm))
           return give_up("a material point or an element cannot follow the increment");
         outcome.correction = largest_displacement(du);
-        outcome.residual   = norm / std::max(contact.force_scale(), 1e-6);
+        outcome.residual   = norm / force_scale();
         if (outcome.residual < settings.residual_tolerance && outcome.correction < settings.displacement_tolerance)
           {
             outcome.converged = true;
+            account(load, loads_before, reaction_before, outcome);
             return outcome;
           }
         since_progress = norm < 0.9 * best ? 0 : since_progress + 1;

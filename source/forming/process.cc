@@ -221,9 +221,9 @@ namespace tribodraw
   {
     std::vector<ContactTool> tools(3);
     const double             half = 0.5 * thickness;
-    tools[die_index]              = {"Die", die, Face::die_side, false, -1, -half, -half};
-    tools[punch_index]            = {"Punch", punch, Face::punch_side, false, -1, half, half};
-    tools[holder_index]           = {"Blank holder", blank_holder, Face::punch_side, true, 0, half, half};
+    tools[die_index]              = {"Die", die, {0, 0, -half}, Face::die_side};
+    tools[punch_index]            = {"Punch", punch, {0, 0, half}, Face::punch_side};
+    tools[holder_index]           = {"Blank holder", blank_holder, {0, 0, half}, Face::punch_side, true, 0};
     return tools;
   }
 } // namespace tribodraw

@@ -65,7 +65,7 @@ namespace tribodraw
     // what a checkpoint holds besides the states of the parts
     unsigned            closed = 0;   // closing increments done
     double              next_increment = 0;
-    std::vector<double> last_force;   // vertical force on each tool, for the trapezoidal rule of the work
+    std::vector<Vector3d> last_force; // on each tool, for the trapezoidal rule of the work
     long                n_committed = 0;
 
     std::filesystem::path checkpoint_folder;
@@ -84,7 +84,7 @@ namespace tribodraw
       , contact(shell, tools.place(b.thickness), settings.contact)
       , friction(std::move(f))
       , next_increment(s.first_increment)
-      , last_force(3, 0.)
+      , last_force(3, Vector3d::Zero())
     {
       solver = std::make_unique<IncrementSolver>(shell, contact, symmetry_conditions(), 1, settings);
       find_edge_nodes();
@@ -166,13 +166,11 @@ namespace tribodraw
     record.force_imbalance    = std::abs(record.punch_force + record.blank_holder_force - record.die_force) / std::max(magnitudes, 1e-9);
     for (unsigned t = 0; t < contact.tools().size(); ++t)
       {
-        // force of the sheet on the tool is upwards positive, the tool works on the sheet moving down
-        const double dz = contact.tools()[t].z - contact.tools()[t].committed_z;
-        record.external_work -= symmetry() * 0.5 * (last_force[t] + forces[t][2]) * dz;
-        last_force[t] = forces[t][2];
+        record.external_work -= symmetry() * 0.5 * (last_force[t] + forces[t]).dot(contact.tools()[t].motion());
+        last_force[t] = forces[t];
       }
     record.time += load.dt;
-    record.increment = -load.motion[ToolSet::punch_index];
+    record.increment = -load.motion[ToolSet::punch_index][2];
     record.punch_travel += record.increment;
   }
 
@@ -188,7 +186,7 @@ namespace tribodraw
       increment.dt      = load.dt;
       increment.travel  = record.increment;
       increment.closing = closing;
-      for (const double m : load.motion)
+      for (const Vector3d &m : load.motion)
         increment.tool_velocity.push_back(m / load.dt);
       friction->update(shell, contact, increment);
     }
@@ -263,7 +261,7 @@ namespace tribodraw
       {
         step = std::min(step, 1 - done);
         IncrementSolver::Load load;
-        load.motion.assign(3, 0.);
+        load.motion.assign(3, Vector3d::Zero());
         load.free_force = {force * (done + step)};
         load.dt         = settings.closing_time * step;
         const auto outcome = solver->solve(load);
@@ -296,8 +294,8 @@ namespace tribodraw
         if (remaining < 1.5 * step) // no tiny last increment: rates of a tiny one mean nothing
           step = remaining <= settings.largest_increment ? std::min(remaining, 1.5 * step) : 0.5 * remaining;
         IncrementSolver::Load load;
-        load.motion.assign(3, 0.);
-        load.motion[ToolSet::punch_index] = -step;
+        load.motion.assign(3, Vector3d::Zero());
+        load.motion[ToolSet::punch_index] = {0, 0, -step};
         load.free_force                   = {process.blank_holder_force / symmetry()};
         load.dt                           = step / process.punch_speed;
         const auto outcome                = solver->solve(load);
@@ -337,7 +335,10 @@ namespace tribodraw
       o->save(archive);
     const IncrementRecord &r = record;
     archive.put("simulation/state", std::vector<double>{static_cast<double>(n_committed), static_cast<double>(closed), next_increment, last_checkpoint});
-    archive.put("simulation/last force", last_force);
+    std::vector<double> forces;
+    for (const Vector3d &f : last_force)
+      forces.insert(forces.end(), f.data(), f.data() + 3);
+    archive.put("simulation/last force", forces);
     archive.put("simulation/record", std::vector<double>{r.time, r.punch_travel, r.punch_force, r.die_force, r.blank_holder_force, r.external_work});
     archive.put("simulation/parameters", identity);
     if (parallel::rank() == 0)
@@ -408,7 +409,9 @@ namespace tribodraw
     d.closed          = d.settings.closing_increments;
     d.next_increment  = state[2];
     d.last_checkpoint = state[3];
-    d.last_force      = newest.numbers("simulation/last force", 3);
+    const auto &forces = newest.numbers("simulation/last force", 3 * d.last_force.size());
+    for (std::size_t t = 0; t < d.last_force.size(); ++t)
+      d.last_force[t] = Vector3d(forces[3 * t], forces[3 * t + 1], forces[3 * t + 2]);
     const auto &r     = newest.numbers("simulation/record", 6);
     d.record.time = r[0], d.record.punch_travel = r[1], d.record.punch_force = r[2], d.record.die_force = r[3], d.record.blank_holder_force = r[4], d.record.external_work = r[5];
     d.checkpoint_slot = 1 - slot;

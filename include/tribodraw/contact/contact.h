@@ -3,6 +3,7 @@
 
 #include <tribodraw/base/archive.h>
 #include <tribodraw/base/sparse_system.h>
+#include <tribodraw/shell/loads.h>
 #include <tribodraw/shell/shell.h>
 #include <tribodraw/tools/tool_geometry.h>
 
@@ -23,14 +24,17 @@ namespace tribodraw
   {
     std::string                         name;
     std::shared_ptr<const ToolGeometry> geometry;
+    Eigen::Vector3d                     place    = Eigen::Vector3d::Zero(); ///< trial origin of the shape's frame [mm]
     Face                                face     = Face::die_side;
     bool                                mirrored = false; ///< the shape is turned upside down (z -> -z)
-    /// Index of the unknown vertical position (force control), or -1 for a prescribed position.
-    int                                 free_index = -1;
-    double                              z          = 0; ///< trial height of the shape's frame [mm]
-    double                              committed_z = 0;
+    /// Index of the unknown travel along the axis (force control), or -1 for a prescribed position.
+    int             free_index      = -1;
+    Eigen::Vector3d axis            = -Eigen::Vector3d::UnitZ(); ///< unit direction in which a free tool is pushed and moves
+    Eigen::Vector3d committed_place = Eigen::Vector3d::Zero();   ///< set by Contact
 
     ToolDistance distance(const Eigen::Vector3d &x) const;
+    /// What the tool moved since the committed state [mm].
+    Eigen::Vector3d motion() const { return place - committed_place; }
   };
 
   /// Contact of the blank's nodes with rigid tools: penalty with a quadratic transition, Coulomb friction with an elastic
@@ -63,19 +67,22 @@ namespace tribodraw
     {
       bool frozen = false; ///< predictor: contact status, pressure and sliding as committed
     };
-    /// Subtracts contact forces from @p residual (internal minus external forces; entries n_dofs.. are the free tools) and
-    /// adds the tangent. @p tool_sensitivity, if given, gets d residual / d z of each prescribed tool's motion @p motion
-    /// (one number per tool, mm).
-    void assemble(Eigen::VectorXd           &residual,
-                  SparseMatrix              *tangent,
-                  const Options             &options,
-                  const std::vector<double> *motion           = nullptr,
-                  Eigen::VectorXd           *tool_sensitivity = nullptr);
+    /// Subtracts contact forces from @p residual (internal minus external forces; entries n_dofs.. are the free tools:
+    /// force of the tool on the sheet along its axis) and adds the tangent. @p tool_sensitivity, if given, gets the
+    /// derivative of the residual along the motion @p motion of the prescribed tools (one vector per tool, mm).
+    void assemble(Eigen::VectorXd                    &residual,
+                  SparseMatrix                       *tangent,
+                  const Options                      &options,
+                  const std::vector<Eigen::Vector3d> *motion           = nullptr,
+                  Eigen::VectorXd                    *tool_sensitivity = nullptr);
 
     /// Force on each tool from the modelled part of the sheet, of the last assemble() [N].
     const std::vector<Eigen::Vector3d> &tool_forces() const { return tool_force; }
     /// Sum of the magnitudes of all nodal contact forces of the last assemble() [N]: the scale of the residual.
     double force_scale() const { return scale; }
+
+    /// Contact forces of the last assemble() as dead forces on the nodes: to take the tools away by fading them out.
+    Loads frozen_forces() const;
 
     /// Accept the trial state: elastic slips, tool positions, dissipation; lag areas and thickness.
     void commit();
@@ -130,7 +137,7 @@ namespace tribodraw
     std::vector<double>                                 area, half_thickness; // lagged
     std::vector<std::vector<NodeTool>>                  pair;                 // [tool][node]
     std::array<FaceState, n_faces>                      faces;
-    std::vector<Eigen::Vector3d>                        tool_force;
+    std::vector<Eigen::Vector3d>                        tool_force, node_force; // of the last assemble()
     double                                              scale = 0, dissipated = 0, stored = 0, energy_at_start = 0;
   };
 } // namespace tribodraw

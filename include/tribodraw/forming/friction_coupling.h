@@ -21,7 +21,7 @@ namespace tribodraw
     {
       double              dt     = 0;     ///< [s]
       double              travel = 0;     ///< punch travel in the increment [mm]
-      std::vector<double> tool_velocity;  ///< vertical velocity of each tool [mm/s]
+      std::vector<Eigen::Vector3d> tool_velocity; ///< of each tool [mm/s]
       bool                closing = false; ///< blank holder closes, punch at rest
     };
     /// Figures for history.csv and the screen; index 0: punch side, 1: die side.

@@ -2,6 +2,7 @@
 #define tribodraw_forming_increment_solver_h
 
 #include <tribodraw/contact/contact.h>
+#include <tribodraw/shell/loads.h>
 #include <tribodraw/shell/shell.h>
 
 #include <string>
@@ -21,6 +22,7 @@ namespace tribodraw
     double            first_increment = 0, largest_increment = 0, smallest_increment = 0; ///< of punch travel [mm]
     unsigned          closing_increments = 0;
     double            closing_time = 0; ///< [s]
+    double            viscosity = 0; ///< traction of the viscous stabilisation per velocity [MPa s/mm]
 
     static SolverSettings read(Parameters &parameters);
   };
@@ -31,33 +33,57 @@ namespace tribodraw
   public:
     struct Load
     {
-      std::vector<double> motion;      ///< vertical displacement of each tool in this increment [mm] (0 for free tools)
-      std::vector<double> free_force;  ///< downward force on each free tool, modelled part [N]
-      double              dt = 0;      ///< [s]
+      std::vector<Eigen::Vector3d> motion;     ///< of each tool in this increment [mm] (zero for free tools)
+      std::vector<double>          free_force; ///< of the machine on each free tool along its axis, modelled part [N]
+      Eigen::VectorXd              prescribed; ///< increments of the fixed unknowns, n_dofs() entries; empty: zero
+
+      /// Loads on the blank with their factors at both ends of the increment.
+      struct External
+      {
+        const Loads *loads  = nullptr;
+        double       before = 0, after = 0;
+      };
+      std::vector<External> external;
+
+      /// False: the tools are away (springback). To take them away slowly, add Contact::frozen_forces() of the last state
+      /// with tools to the external loads and bring their factor from 1 to 0.
+      bool   contact = true;
+      double dt      = 0; ///< [s]
     };
     struct Outcome
     {
       bool        converged  = false;
       unsigned    iterations = 0;
-      double      residual   = 0; ///< relative to the contact forces
+      double      residual   = 0; ///< relative to the forces that act on the blank
       double      correction = 0; ///< last [mm]
       std::string reason;         ///< why it did not converge
+      // Work done on the blank in the increment, modelled part (mean of the forces at both ends) [N mm].
+      double load_work = 0;          ///< of the external loads
+      double support_work = 0;       ///< of the prescribed increments
+      double stabilisation_work = 0; ///< taken out by the viscous stabilisation
     };
 
-    /// @param fixed unknowns that stay zero (symmetry planes), size n_dofs of the shell.
+    /// @param fixed unknowns that are held (symmetry planes) or prescribed, size n_dofs of the shell.
     IncrementSolver(Shell &shell, Contact &contact, std::vector<bool> fixed, unsigned n_free_tools, const SolverSettings &settings);
 
     /// Find equilibrium at the end of the increment. On success the trial states of shell and contact are the solution
     /// (not committed); on failure both are back at the committed state.
     Outcome solve(const Load &load);
 
+    /// Force (moment) of the supports on the blank at each fixed unknown in the last solution, zero elsewhere [N, N mm].
+    const Eigen::VectorXd &reactions() const { return reaction; }
+
     /// Unbalanced force of each unknown at the last evaluation [N, N mm]: for a diagnosis.
     const Eigen::VectorXd &residual() const { return R; }
 
   private:
     bool   evaluate(const Load &load, const Shell::AssemblyOptions &options);
-    double residual_norm(const Eigen::VectorXd &r) const;
+    void   resist_motion(double dt);
+    double force_scale() const;
     bool   predict(const Load &load, Eigen::VectorXd &du);
+    void   restart();
+    void   account(const Load &load, const Eigen::VectorXd &loads_before, const Eigen::VectorXd &reaction_before, Outcome &outcome) const;
+    Eigen::VectorXd increment() const;
     void   apply(const Eigen::VectorXd &du, double factor);
     void   limit(Eigen::VectorXd &du) const;
     double largest_displacement(const Eigen::VectorXd &du) const;
@@ -67,12 +93,13 @@ namespace tribodraw
     Shell                &shell;
     Contact              &contact;
     const SolverSettings &settings;
-    std::vector<bool>     fixed;
+    std::vector<bool>     fixed, held; // held: fixed, and the free tools while they are away
     unsigned              n_free;
     SparseMatrix          K;
     DirectSolver          solver;
-    Eigen::VectorXd       R;
-    std::vector<double>   free_z;
+    Eigen::VectorXd       R, reaction;
+    std::vector<double>   free_travel; // of each free tool along its axis in this increment [mm]
+    double                load_scale = 0, support_scale = 0;
   };
 } // namespace tribodraw
 

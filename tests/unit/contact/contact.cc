@@ -105,7 +105,7 @@ namespace
 
   ContactTool floor_below()
   {
-    return {"floor", std::make_shared<Floor>(), Face::die_side, false, -1, -thickness / 2, -thickness / 2};
+    return {"floor", std::make_shared<Floor>(), Vector3d(0, 0, -thickness / 2), Face::die_side};
   }
 } // namespace
 
@@ -157,7 +157,7 @@ TEST(Contact, ToolMotionIsSubtracted)
   Bench b({floor_below()}, 0.2);
   b.shift({0, 0, -0.05});
   b.commit();
-  b.contact.tools()[0].z -= 0.3;
+  b.contact.tools()[0].place[2] -= 0.3;
   b.shift({0, 0, -0.3});
   b.residual();
   EXPECT_NEAR(b.contact.tool_forces()[0].head<2>().norm(), 0., 1e-12);
@@ -166,7 +166,7 @@ TEST(Contact, ToolMotionIsSubtracted)
 
 TEST(Contact, MirroredToolFacesDown)
 {
-  ContactTool t{"lid", std::make_shared<Floor>(), Face::punch_side, true, -1, 1., 1.};
+  ContactTool t{"lid", std::make_shared<Floor>(), Vector3d::UnitZ(), Face::punch_side, true};
   const auto  d = t.distance({0.3, 0.2, 0.4});
   EXPECT_DOUBLE_EQ(d.distance, 0.6);
   EXPECT_EQ(d.normal, Vector3d(0, 0, -1));
@@ -175,14 +175,14 @@ TEST(Contact, MirroredToolFacesDown)
 // Consistent linearisation: finite differences of the residual, sticking and sliding, with a free tool.
 TEST(Contact, TangentIsExact)
 {
-  ContactTool ball{"ball", std::make_shared<Ball>(Vector3d(1.3, 0.9, -6.), 6. - thickness / 2 + 0.08), Face::die_side, false, -1, 0, 0};
-  ContactTool lid{"lid", std::make_shared<Ball>(Vector3d(2.5, 2.2, -7.), 7. - thickness / 2 + 0.05), Face::punch_side, true, 0, 0, 0};
+  ContactTool ball{"ball", std::make_shared<Ball>(Vector3d(1.3, 0.9, -6.), 6. - thickness / 2 + 0.08), Vector3d::Zero(), Face::die_side};
+  ContactTool lid{"lid", std::make_shared<Ball>(Vector3d(2.5, 2.2, -7.), 7. - thickness / 2 + 0.05), Vector3d::Zero(), Face::punch_side, true, 0, Vector3d(0.36, 0.48, -0.8)};
   for (const double slide : {0.002, 0.3})
     {
       Bench b({ball, lid}, 0.15);
       b.commit();
       b.shift({slide, -0.6 * slide, -0.003});
-      b.contact.tools()[1].z += 0.004;
+      b.contact.tools()[1].place[2] += 0.004;
       const unsigned n = b.shell.n_dofs();
       SparseMatrix   K = b.shell.make_matrix(1);
       K.set_zero();
@@ -199,7 +199,7 @@ TEST(Contact, TangentIsExact)
       const double    h    = 1e-6;
       const auto      move = [&](const double s) {
         b.shell.move(s * direction);
-        b.contact.tools()[1].z += s * direction[n];
+        b.contact.tools()[1].place += s * direction[n] * b.contact.tools()[1].axis;
       };
       move(h);
       const Eigen::VectorXd plus = b.residual();
