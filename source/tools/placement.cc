@@ -1,0 +1,146 @@
+#include <tribodraw/base/errors.h>
+#include <tribodraw/base/units.h>
+#include <tribodraw/tools/placement.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace tribodraw
+{
+  namespace
+  {
+    using Eigen::Vector3d;
+
+    /// Far enough for every press, near enough that double precision leaves 1e-10 mm.
+    constexpr double far_away = 2e4;
+
+    struct Cell
+    {
+      Vector3d centre, half;
+      double   larger; ///< of both distances at the centre
+      /// Of the gap in the cell. Half way between two bodies both distances are half the gap, elsewhere one of them is
+      /// larger; and no distance changes by more than the way.
+      double
+      lower_bound() const
+      {
+        return 2 * (larger - half.norm());
+      }
+      bool
+      operator<(const Cell &other) const
+      {
+        return lower_bound() > other.lower_bound(); // the most promising comes first
+      }
+    };
+  } // namespace
+
+  ToolDistance
+  PlacedTool::distance(const Vector3d &x) const
+  {
+    if (!mirrored)
+      return shape->distance({ x[0], x[1], x[2] - z });
+    ToolDistance d = shape->distance({ x[0], x[1], z - x[2] });
+    d.normal[2] *= -1;
+    d.curvature.row(2) *= -1;
+    d.curvature.col(2) *= -1;
+    return d;
+  }
+
+  NearestPoint
+  nearest_point(const PlacedTool &tool, const std::vector<Vector3d> &points)
+  {
+    NearestPoint nearest{ std::numeric_limits<double>::infinity(), 0 };
+    for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const double d = tool.distance(points[i]).distance;
+        if (d < nearest.distance)
+          nearest = { d, i };
+      }
+    return nearest;
+  }
+
+  double
+  initial_penetration(const PlacedTool &tool, const std::vector<Vector3d> &middle_surface, const double half_thickness)
+  {
+    return half_thickness - nearest_point(tool, middle_surface).distance;
+  }
+
+  std::optional<double>
+  touching_height(const ToolGeometry &shape, const bool mirrored, const Approach approach,
+                  const std::vector<Vector3d> &middle_surface, const double half_thickness)
+  {
+    // A distance never overestimates how far the tool can move, so that each step ends before the first touch.
+    const double side = approach == Approach::from_above ? 1 : -1;
+    PlacedTool   tool{ &shape, side * far_away, mirrored };
+    if (nearest_point(tool, middle_surface).distance < 0)
+      throw InputError(describe_error(
+          "The body of a tool lies on the side of the blank.", shape.describe(),
+          std::string("it comes from ") + (approach == Approach::from_above ? "above" : "below"), "",
+          "Turn it round: another `Facing`, the normals of a surface from a file, or the side of the tool."));
+    // The steps shrink geometrically where the tool touches beside its deepest point; a wall that is almost vertical
+    // takes the longest.
+    for (int i = 0; i < 5000 && side * tool.z > -far_away; ++i)
+      {
+        const double gap = nearest_point(tool, middle_surface).distance - half_thickness;
+        if (gap < 1e-9)
+          return tool.z;
+        tool.z -= side * gap;
+      }
+    return {};
+  }
+
+  Clearance
+  smallest_clearance(const PlacedTool &a, const PlacedTool &b, const Vector3d &low, const Vector3d &high,
+                     const double spacing)
+  {
+    // The sum of both distances is nowhere below the gap, and equal to it on the shortest line between the bodies.
+    Clearance  best{ std::numeric_limits<double>::infinity(), low };
+    const auto consider = [&](const Vector3d &x) {
+      const double at_a = a.distance(x).distance, at_b = b.distance(x).distance;
+      if (at_a + at_b < best.gap)
+        best = { at_a + at_b, x };
+      return std::max(at_a, at_b);
+    };
+    std::priority_queue<Cell> cells;
+    const Vector3d            centre = 0.5 * (low + high);
+    cells.push({ centre, 0.5 * (high - low), consider(centre) });
+    // Whole boxes are left out at once where their bound is not better than the best so far; what remains are cells
+    // on the surface half way between the tools.
+    while (!cells.empty() && cells.top().lower_bound() < best.gap)
+      {
+        const Cell cell = cells.top();
+        cells.pop();
+        int axis = 0;
+        if (cell.half.maxCoeff(&axis) <= 0.5 * spacing)
+          continue;
+        for (const double sign : { -1., 1. })
+          {
+            Cell part = cell;
+            part.half[axis] *= 0.5;
+            part.centre[axis] += sign * part.half[axis];
+            part.larger = consider(part.centre);
+            if (part.lower_bound() < best.gap)
+              cells.push(part);
+          }
+      }
+    // Descent along the axes with a shrinking step.
+    for (double step = 0.5 * spacing; step > 1e-3 * spacing;)
+      {
+        const double before = best.gap;
+        const auto   from   = best.place;
+        for (int axis = 0; axis < 3; ++axis)
+          for (const double sign : { -1., 1. })
+            consider((from + sign * step * Vector3d::Unit(axis)).cwiseMax(low).cwiseMin(high));
+        if (!(best.gap < before - 1e-9 * spacing))
+          step *= 0.5;
+      }
+    return best;
+  }
+
+  double
+  elements_on_smallest_radius(const ToolGeometry &shape, const double element_size)
+  {
+    return 0.5 * M_PI * shape.smallest_radius() / element_size;
+  }
+} // namespace tribodraw
