@@ -83,8 +83,10 @@ namespace tribodraw
     check_verb(const CommandLine &line)
     {
       const Verb       *verb   = find_verb(line.verb);
-      const std::size_t wanted = verb->argument.empty() ? 0 : 1;
-      const std::string usage  = "tribodraw " + verb->name + (wanted ? " " + verb->argument : "");
+      const std::size_t wanted = verb->arguments.size();
+      std::string       usage  = "tribodraw " + verb->name;
+      for (const std::string &argument : verb->arguments)
+        usage += " " + argument;
       if (line.arguments.size() != wanted)
         throw InputError(describe_error("Wrong number of arguments.", "command line, verb '" + verb->name + "'",
                                         std::to_string(line.arguments.size()), std::to_string(wanted),
@@ -195,7 +197,10 @@ namespace tribodraw
     text += "\nVerbs:\n";
     for (const Verb &verb : verbs())
       {
-        text += padded(verb.name + (verb.argument.empty() ? "" : " " + verb.argument)) + verb.description + "\n";
+        std::string usage = verb.name;
+        for (const std::string &argument : verb.arguments)
+          usage += " " + argument;
+        text += padded(usage) + verb.description + "\n";
         for (const VerbOption &option : verb.options)
           text += padded("  " + option.name + (option.argument.empty() ? "" : " " + option.argument))
                   + option.description + "\n";

@@ -156,7 +156,7 @@ namespace tribodraw
       if (parallel::rank() == 0)
         for (const Verb &verb : verbs())
           if (verb.name == line.verb)
-            verb.run({ line.arguments.empty() ? "" : line.arguments.front(), line.verb_options });
+            verb.run({ line.arguments, line.verb_options });
     }
 
     /// True if every rank gets here within a few seconds: then all failed alike and can leave in order.

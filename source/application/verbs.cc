@@ -6,6 +6,7 @@
 #include <tribodraw/base/suggest.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/friction_table/coefficient_table.h>
+#include <tribodraw/output/comparison.h>
 #include <tribodraw/output/figures.h>
 #include <tribodraw/output/friction_export.h>
 #include <tribodraw/output/report.h>
@@ -19,6 +20,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace tribodraw
 {
@@ -29,7 +31,7 @@ namespace tribodraw
     void
     init(const VerbCall &call)
     {
-      const std::string       &given = call.argument;
+      const std::string       &given = call.arguments[0];
       const std::string        name = fs::path(given).extension() == ".prm" ? given.substr(0, given.size() - 4) : given;
       std::vector<std::string> names;
       for (const ShippedFile &file : shipped_files())
@@ -149,7 +151,7 @@ namespace tribodraw
     void
     explain(const VerbCall &call)
     {
-      const std::string &path = call.argument;
+      const std::string &path = call.arguments[0];
       const auto         all  = all_entries();
       if (const auto found = all.find(path); found != all.end())
         return print_entry(found->second);
@@ -221,7 +223,7 @@ namespace tribodraw
         throw InputError(
             describe_error("The format is missing.", "tribodraw export", "", all_formats(), "Add --format FORMAT."));
       const auto             format = make_friction_export(call.options.at("--format"));
-      const fs::path         source = call.argument;
+      const fs::path         source = call.arguments[0];
       CoefficientTable       table  = CoefficientTable::read(source);
       FrictionExportSettings settings;
       for (const unsigned char c : source.stem().string())
@@ -252,17 +254,68 @@ namespace tribodraw
     }
 
     void
+    check_output_folder(const fs::path &folder, const std::string &verb)
+    {
+      if (!fs::is_directory(folder))
+        throw InputError(describe_error("The output folder does not exist.", verb, "'" + folder.string() + "'"));
+      if (!fs::exists(folder / "run_info.txt"))
+        throw InputError(
+            describe_error("This is not an output folder: it has no run_info.txt.", verb, "'" + folder.string() + "'"));
+    }
+
+    /// `measured=computed,measured=computed`
+    std::vector<std::pair<std::string, std::string>>
+    column_pairs(const std::string &text)
+    {
+      std::vector<std::pair<std::string, std::string>> pairs;
+      std::istringstream                               in(text);
+      for (std::string item; std::getline(in, item, ',');)
+        {
+          const auto equals = item.find('=');
+          if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
+            throw InputError(describe_error("This does not name two columns.", "command line, --columns", "'" + item + "'",
+                                            "MEASURED=COMPUTED"));
+          pairs.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+        }
+      if (pairs.size() < 2)
+        throw InputError(describe_error("A curve needs two pairs of columns.", "command line, --columns", "'" + text + "'",
+                                        "the abscissa first: stroke_mm=punch_travel_mm,force_kn=punch_force_n"));
+      return pairs;
+    }
+
+    void
+    compare(const VerbCall &call)
+    {
+      const fs::path folder = call.arguments[1];
+      check_output_folder(folder, "tribodraw compare");
+      const auto pairs = call.options.count("--columns") > 0 ? column_pairs(call.options.at("--columns"))
+                                                             : std::vector<std::pair<std::string, std::string>>();
+      const auto curves = compare_with_run(read_measured_table(call.arguments[0]), folder, pairs);
+      write_comparison(curves, folder);
+      write_report(folder);
+      for (const CurveComparison &c : curves)
+        {
+          std::cout << c.quantity << " over " << c.abscissa << ", " << short_number(c.from) << " to " << short_number(c.to)
+                    << ", " << c.points << " measured points\n  computed - measured: rms " << short_number(c.rms) << " ("
+                    << short_number(100 * c.relative_rms()) << " % of the measured maximum), mean " << short_number(c.mean)
+                    << ", largest " << short_number(c.largest) << " at " << short_number(c.largest_at)
+                    << "\n  maximum: measured " << short_number(c.measured_peak) << ", computed "
+                    << short_number(c.computed_peak) << "; area: measured " << short_number(c.measured_area)
+                    << ", computed " << short_number(c.computed_area) << "\n";
+          if (c.left_out > 0)
+            std::cout << "  " << c.left_out << " measured points were left out: no number, or not further than the one before\n";
+        }
+      std::cout << "Wrote " << (folder / "compare.csv").string() << ", the figures and report.html\n";
+    }
+
+    void
     report(const VerbCall &call)
     {
-      const std::string &folder = call.argument;
-      if (!fs::is_directory(folder))
-        throw InputError(describe_error("The output folder does not exist.", "tribodraw report", "'" + folder + "'"));
-      if (!fs::exists(fs::path(folder) / "run_info.txt"))
-        throw InputError(describe_error("This is not an output folder: it has no run_info.txt.", "tribodraw report",
-                                        "'" + folder + "'"));
+      const fs::path folder = call.arguments[0];
+      check_output_folder(folder, "tribodraw report");
       figures::draw_all(folder);
       write_report(folder);
-      std::cout << "Wrote " << (fs::path(folder) / "report.html").string() << "\n";
+      std::cout << "Wrote " << (folder / "report.html").string() << "\n";
     }
 
     void
@@ -276,20 +329,26 @@ namespace tribodraw
   verbs()
   {
     static const std::vector<Verb> all{
-      { "init", "NAME", "write the commented example NAME.prm", init },
-      { "explain", "'Section/Entry'", "meaning, unit, allowed values and default of an entry", explain },
-      { "list", "", "all models with one sentence and their source", list },
-      { "parameters", "", "all entries of all tasks as Markdown", parameters },
+      { "init", { "NAME" }, "write the commented example NAME.prm", init },
+      { "explain", { "'Section/Entry'" }, "meaning, unit, allowed values and default of an entry", explain },
+      { "list", {}, "all models with one sentence and their source", list },
+      { "parameters", {}, "all entries of all tasks as Markdown", parameters },
       { "export",
-        "TABLE",
+        { "TABLE" },
         "write a friction table or the coefficients of a strip draw for another program",
         export_table,
         { { "--format", "FORMAT", all_formats() },
           { "--strain", "VALUE", "the strain at which to take the coefficient; default: the mean over all strains" },
           { "--max-error", "VALUE", "how far a fitted formula may be off; default: 0.02" },
           { "--to", "FILE", "the file to write; default: beside TABLE" } } },
-      { "report", "DIR", "draw figures and report.html of an output folder again", report },
-      { "doctor", "", "examine what the program needs from this machine", doctor }
+      { "compare",
+        { "MEASURED", "DIR" },
+        "compare a measurement (CSV, or FILE.h5:/PATH) with the tables of an output folder",
+        compare,
+        { { "--columns", "A=B,C=D",
+            "which columns belong together, measured=computed, the abscissa first; default: by name" } } },
+      { "report", { "DIR" }, "draw figures and report.html of an output folder again", report },
+      { "doctor", {}, "examine what the program needs from this machine", doctor }
     };
     return all;
   }

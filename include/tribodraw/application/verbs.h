@@ -17,15 +17,15 @@ namespace tribodraw
   /// What was typed after a verb.
   struct VerbCall
   {
-    std::string                        argument; ///< empty if the verb takes none
-    std::map<std::string, std::string> options;  ///< by name, those that were given
+    std::vector<std::string>           arguments; ///< as many as the verb takes
+    std::map<std::string, std::string> options;   ///< by name, those that were given
   };
 
   /// A command beside running a parameter file, such as `tribodraw list`.
   struct Verb
   {
     std::string                           name;
-    std::string                           argument; ///< what it takes, for the help; empty: nothing
+    std::vector<std::string>              arguments; ///< what it takes, for the help
     std::string                           description;
     std::function<void(const VerbCall &)> run;
     std::vector<VerbOption>               options = {};

@@ -37,10 +37,8 @@ class Options(InFolder):
     def test_help_names_all_options_verbs_and_exit_codes(self):
         text = self.run_program("--help").stdout
         for word in ["--output", "--set", "--resume", "--validate", "--quiet", "--help", "--version", "init", "explain", "list",
-                     "parameters", "export", "--format", "report", "doctor", "output/NAME"]:
+                     "parameters", "export", "--format", "report", "compare MEASURED DIR", "--columns", "doctor", "output/NAME"]:
             self.assertIn(word, text)
-        for word in ["compare"]:  # comes with its issue
-            self.assertNotIn(word, text)
 
     def test_version(self):
         text = self.run_program("--version").stdout
@@ -178,6 +176,23 @@ class Runs(InFolder):
             "cut_height_um,h_avg_um,h_avg_over_sq,contact_fraction,phi_p_xx,phi_p_xy,phi_p_yx,phi_p_yy,"
             "phi_s_xx,phi_s_xy,phi_s_yx,phi_s_yy"))
         self.assertEqual([round(float(r["h_avg_over_sq"]), 9) for r in self.rows("first/flow_factors.csv")], [4, 1.5])
+
+    def test_compare(self):
+        self.run_program(self.prm("flow_factors_gaussian"), *SMALL, "--set", "Flow factors/Separations = 4, 3, 2", "--quiet", "--output", "first")
+        rows = [(float(r["h_avg_over_sq"]), float(r["phi_p_xx"])) for r in self.rows("first/flow_factors.csv")]
+        measured = self.folder / "measured.csv"
+        measured.write_text("h_avg_over_sq,phi_p_xx\n" + "".join(f"{h},{phi + 0.25}\n" for h, phi in rows))
+        text = self.run_program("compare", measured, "first").stdout
+        self.assertIn("phi_p_xx over h_avg_over_sq, 2 to 4, 3 measured points", text)
+        self.assertIn("mean -0.25", text)  # computed minus measured
+        self.assertTrue((self.folder / "first/compare_phi_p_xx.svg").exists())
+        self.assertIn('id="compare_phi_p_xx"', (self.folder / "first/report.html").read_text())
+        self.assertEqual(float(self.rows("first/compare.csv")[0]["points"]), 3)
+        for arguments, expected in {("compare", measured): "tribodraw compare MEASURED DIR", ("compare", measured, "nowhere"): "nowhere",
+                                    ("compare", "none.csv", "first"): "none.csv",
+                                    ("compare", measured, "first", "--columns", "a"): "--columns"}.items():
+            with self.subTest(arguments):
+                self.assertIn(expected, self.run_program(*arguments, code=2).stderr)
 
     def test_friction_table(self):
         tool = [s.replace("Sheet", "Tool") for s in SMALL]
