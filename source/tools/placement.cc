@@ -39,8 +39,8 @@ namespace tribodraw
   PlacedTool::distance(const Vector3d &x) const
   {
     if (!mirrored)
-      return shape->distance({ x[0], x[1], x[2] - z });
-    ToolDistance d = shape->distance({ x[0], x[1], z - x[2] });
+      return shape->distance(x - place);
+    ToolDistance d = shape->distance({ x[0] - place[0], x[1] - place[1], place[2] - x[2] });
     d.normal[2] *= -1;
     d.curvature.row(2) *= -1;
     d.curvature.col(2) *= -1;
@@ -66,26 +66,26 @@ namespace tribodraw
     return half_thickness - nearest_point(tool, middle_surface).distance;
   }
 
-  std::optional<double>
-  touching_height(const ToolGeometry &shape, const bool mirrored, const Approach approach,
-                  const std::vector<Vector3d> &middle_surface, const double half_thickness)
+  std::optional<Vector3d>
+  touching_place(PlacedTool tool, const Vector3d &direction, const std::vector<Vector3d> &middle_surface,
+                 const double half_thickness)
   {
-    // A distance never overestimates how far the tool can move, so that each step ends before the first touch.
-    const double side = approach == Approach::from_above ? 1 : -1;
-    PlacedTool   tool{ &shape, side * far_away, mirrored };
+    const Vector3d on_the_way = tool.place;
+    tool.place -= far_away * direction;
     if (nearest_point(tool, middle_surface).distance < 0)
-      throw InputError(describe_error(
-          "The body of a tool lies on the side of the blank.", shape.describe(),
-          std::string("it comes from ") + (approach == Approach::from_above ? "above" : "below"), "",
-          "Turn it round: another `Facing`, the normals of a surface from a file, or the side of the tool."));
-    // The steps shrink geometrically where the tool touches beside its deepest point; a wall that is almost vertical
-    // takes the longest.
-    for (int i = 0; i < 5000 && side * tool.z > -far_away; ++i)
+      throw InputError(
+          describe_error("The body of a tool lies on the side of the blank.", tool.shape->describe(), "", "",
+                         "Turn it round: another `Facing`, or the normals of a surface from a file reversed."));
+    // A distance never overestimates how far the tool can move, so that each step ends before the first touch. The
+    // steps shrink geometrically where the tool touches beside its deepest point; a steep wall takes the longest.
+    for (int i = 0; i < 5000; ++i)
       {
         const double gap = nearest_point(tool, middle_surface).distance - half_thickness;
         if (gap < 1e-9)
-          return tool.z;
-        tool.z -= side * gap;
+          return tool.place;
+        tool.place += gap * direction;
+        if (direction.dot(tool.place - on_the_way) > far_away)
+          return {};
       }
     return {};
   }

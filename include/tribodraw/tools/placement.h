@@ -8,12 +8,12 @@
 
 namespace tribodraw
 {
-  /// A tool shape at a height, as contact sees it.
+  /// A tool shape at a place, as contact sees it.
   struct PlacedTool
   {
     const ToolGeometry *shape    = nullptr;
-    double              z        = 0;     ///< height of the shape's frame [mm]
-    bool                mirrored = false; ///< the shape is turned upside down (z -> -z)
+    Eigen::Vector3d     place    = Eigen::Vector3d::Zero(); ///< origin of the shape's frame [mm]
+    bool                mirrored = false;                   ///< the shape is turned upside down (z -> -z)
 
     /// In the blank's frame.
     ToolDistance distance(const Eigen::Vector3d &x) const;
@@ -32,18 +32,13 @@ namespace tribodraw
   double initial_penetration(const PlacedTool &tool, const std::vector<Eigen::Vector3d> &middle_surface,
                              double half_thickness);
 
-  /// From where a tool comes to the blank.
-  enum class Approach
-  {
-    from_above,
-    from_below
-  };
-
-  /// Height of the shape's frame [mm] at which the tool first touches the sheet, that is the nearest of the nodes
-  /// @p middle_surface has the distance @p half_thickness. Nothing if the tool passes beside the sheet.
-  /// Throws InputError if the sheet lies inside the tool's body even far away: the tool faces the other way.
-  std::optional<double> touching_height(const ToolGeometry &shape, bool mirrored, Approach approach,
-                                        const std::vector<Eigen::Vector3d> &middle_surface, double half_thickness);
+  /// Place of the shape's frame at which a tool that comes along the unit vector @p direction first touches the sheet,
+  /// that is the nearest of the nodes @p middle_surface has the distance @p half_thickness. @p tool is any place on
+  /// its way. Nothing if the tool passes beside the sheet. Throws InputError if the sheet lies inside the tool's body
+  /// even far away: the tool faces the other way.
+  std::optional<Eigen::Vector3d> touching_place(PlacedTool tool, const Eigen::Vector3d &direction,
+                                                const std::vector<Eigen::Vector3d> &middle_surface,
+                                                double                              half_thickness);
 
   /// Gap between two tools, where it is smallest.
   struct Clearance

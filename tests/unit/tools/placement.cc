@@ -17,6 +17,16 @@ namespace
   const DrawingDie   die(std::make_shared<RoundedRectangleOutline>(37, 37, 12), 5);
   const Plane        plate(Plane::Facing::up);
 
+  const Vector3d up(0, 0, 1), down(0, 0, -1);
+
+  double
+  touching_height(const PlacedTool &tool, const Vector3d &direction, const std::vector<Vector3d> &nodes,
+                  const double half_thickness)
+  {
+    const auto place = touching_place(tool, direction, nodes, half_thickness);
+    return place ? (*place)[2] : std::nan("");
+  }
+
   std::vector<Vector3d>
   quarter_blank(const double spacing)
   {
@@ -30,7 +40,7 @@ namespace
 
 TEST(Placement, AMirroredToolIsItsReflection)
 {
-  const PlacedTool above{ &die, 3, true }, below{ &die, -3, false };
+  const PlacedTool above{ &die, { 0, 0, 3 }, true }, below{ &die, { 0, 0, -3 }, false };
   for (const Vector3d &x : { Vector3d(39, 10, -1), Vector3d(41, 41, 4), Vector3d(60, 3, 2) })
     {
       const ToolDistance a = above.distance(x), b = below.distance({ x[0], x[1], -x[2] });
@@ -44,9 +54,9 @@ TEST(Placement, AMirroredToolIsItsReflection)
 TEST(Placement, FlatFacesTouchAtHalfTheThickness)
 {
   const auto blank = quarter_blank(2.5);
-  EXPECT_NEAR(*touching_height(die, false, Approach::from_below, blank, 0.39), -0.39, 1e-8);
-  EXPECT_NEAR(*touching_height(punch, false, Approach::from_above, blank, 0.39), 0.39, 1e-8);
-  EXPECT_NEAR(*touching_height(die, true, Approach::from_above, blank, 0.39), 0.39, 1e-8);
+  EXPECT_NEAR(touching_height({ &die, { 0, 0, 0 }, false }, up, blank, 0.39), -0.39, 1e-8);
+  EXPECT_NEAR(touching_height({ &punch, { 0, 0, 0 }, false }, down, blank, 0.39), 0.39, 1e-8);
+  EXPECT_NEAR(touching_height({ &die, { 0, 0, 0 }, true }, down, blank, 0.39), 0.39, 1e-8);
 }
 
 TEST(Placement, ARoundEdgeTouchesLaterThanItsLowestPoint)
@@ -57,21 +67,30 @@ TEST(Placement, ARoundEdgeTouchesLaterThanItsLowestPoint)
   for (double x = 30; x < 60; x += 1)
     nodes.emplace_back(x, 0, 0);
   const double t = 0.4;
-  EXPECT_NEAR(*touching_height(punch, false, Approach::from_above, nodes, t), std::sqrt(8.4 * 8.4 - 9) - 8, 1e-8);
+  EXPECT_NEAR(touching_height({ &punch, { 0, 0, 0 }, false }, down, nodes, t), std::sqrt(8.4 * 8.4 - 9) - 8, 1e-8);
   // The opening of the die is 74 wide: nodes inside of it are never touched.
-  EXPECT_FALSE(touching_height(die, false, Approach::from_below, { Vector3d(0, 0, 0), Vector3d(20, 0, 0) }, t));
+  EXPECT_FALSE(touching_place({ &die, { 0, 0, 0 }, false }, up, { Vector3d(0, 0, 0), Vector3d(20, 0, 0) }, t));
+}
+
+TEST(Placement, AToolMayComeAlongAnyDirection)
+{
+  // A punch beside the blank moves in x against its edge at x = 75: the wall at 35 mm from its axis, 1 mm before.
+  const PlacedTool beside{ &punch, { 500, 0, -20 }, false };
+  const auto       place = touching_place(beside, { -1, 0, 0 }, quarter_blank(2.5), 1);
+  ASSERT_TRUE(place);
+  EXPECT_LT((*place - Vector3d(111, 0, -20)).norm(), 1e-8);
 }
 
 TEST(Placement, AToolThatFacesTheOtherWayIsExplained)
 {
   try
     {
-      touching_height(plate, false, Approach::from_above, quarter_blank(5), 0.4);
+      touching_place({ &plate, { 0, 0, 0 }, false }, down, quarter_blank(5), 0.4);
       FAIL() << "not noticed";
     }
   catch (const InputError &e)
     {
-      EXPECT_NE(std::string(e.what()).find("comes from above"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("on the side of the blank"), std::string::npos) << e.what();
     }
 }
 
@@ -79,26 +98,30 @@ TEST(Placement, PenetrationOfTheFlatBlank)
 {
   const auto blank = quarter_blank(5);
   // Half the thickness 0.39 and 0.1 mm lower than in touch.
-  EXPECT_NEAR(initial_penetration({ &punch, 0.29, false }, blank, 0.39), 0.1, 1e-12);
-  EXPECT_NEAR(initial_penetration({ &punch, 1, false }, blank, 0.39), -0.61, 1e-12);
+  EXPECT_NEAR(initial_penetration({ &punch, { 0, 0, 0.29 }, false }, blank, 0.39), 0.1, 1e-12);
+  EXPECT_NEAR(initial_penetration({ &punch, { 0, 0, 1 }, false }, blank, 0.39), -0.61, 1e-12);
   // 0.2 mm higher than the lower face at -0.39.
-  EXPECT_NEAR(initial_penetration({ &die, 0.2, false }, blank, 0.39), 0.59, 1e-12);
+  EXPECT_NEAR(initial_penetration({ &die, { 0, 0, 0.2 }, false }, blank, 0.39), 0.59, 1e-12);
 }
 
 TEST(Placement, SmallestClearanceOfTheCup)
 {
   const Vector3d  low(0, 0, -60), high(80, 80, 20);
-  const Clearance deep = smallest_clearance({ &die, 0, false }, { &punch, -40, false }, low, high, 1);
+  const Clearance deep
+      = smallest_clearance({ &die, { 0, 0, 0 }, false }, { &punch, { 0, 0, -40 }, false }, low, high, 1);
   EXPECT_NEAR(deep.gap, 2, 1e-6); // walls at 35 and 37
   // Punch still above: the face's edge at height 10 over the die's edge. Both are quarter circles: centres at
   // (42, -5) and (27, 18), distance less the radii 5 and 8.
-  const Clearance above = smallest_clearance({ &die, 0, false }, { &punch, 10, false }, low, high, 1);
+  const Clearance above
+      = smallest_clearance({ &die, { 0, 0, 0 }, false }, { &punch, { 0, 0, 10 }, false }, low, high, 1);
   EXPECT_NEAR(above.gap, std::hypot(15, 23) - 13, 1e-4);
   // A punch of 80 mm overlaps by 3 mm in plan.
   const DrawingPunch wide(std::make_shared<RoundedRectangleOutline>(40, 40, 15), 8);
-  EXPECT_NEAR(smallest_clearance({ &die, 0, false }, { &wide, -40, false }, low, high, 1).gap, -3, 1e-6);
+  EXPECT_NEAR(smallest_clearance({ &die, { 0, 0, 0 }, false }, { &wide, { 0, 0, -40 }, false }, low, high, 1).gap, -3,
+              1e-6);
   // Holder and die, flat on flat.
-  EXPECT_NEAR(smallest_clearance({ &die, 0, false }, { &die, 0.78, true }, low, high, 1).gap, 0.78, 1e-9);
+  EXPECT_NEAR(smallest_clearance({ &die, { 0, 0, 0 }, false }, { &die, { 0, 0, 0.78 }, true }, low, high, 1).gap, 0.78,
+              1e-9);
 }
 
 TEST(Placement, ElementsOnARadius)
