@@ -126,7 +126,7 @@ class BadInput(unittest.TestCase):
                               for e, v in zip(changed, ["nan", "inf", "1,5e", "--1", ""] * len(changed))})
         # Nothing is a valid value where the default is an empty list.
         optional = [e.path for e in changed
-                    if "Default: ''" in run(["explain", e.path], self.folder).stdout and e.path not in message]
+                    if e.path not in message and "Default: ''" in run(["explain", e.path], self.folder).stdout]
         self.assert_names_all(message, [e.path for e in changed if e.path not in optional])
         self.assertLessEqual(len(optional), (len(changed) + 4) // 5)
 
