@@ -82,6 +82,29 @@ namespace tribodraw
     return "circle of diameter " + mm(2 * r);
   }
 
+  StripOutline::StripOutline(const double half_width) : a(half_width)
+  {
+    require(half_width > 0, "Strip outline: the width must be positive.", mm(2 * half_width), "more than 0 mm");
+  }
+
+  PlanDistance
+  StripOutline::distance(const Vector2d &x) const
+  {
+    return reflect(line(std::abs(x[0]) - a, Vector2d::UnitX()), x);
+  }
+
+  std::unique_ptr<Outline>
+  StripOutline::offset(const double clearance) const
+  {
+    return std::make_unique<StripOutline>(a + clearance);
+  }
+
+  std::string
+  StripOutline::describe() const
+  {
+    return "strip of width " + mm(2 * a) + " in x, endless in y";
+  }
+
   RoundedRectangleOutline::RoundedRectangleOutline(const double half_width_x, const double half_width_y,
                                                    const double corner_radius)
       : a(half_width_x), b(half_width_y), corner(corner_radius)

@@ -53,6 +53,14 @@ namespace tribodraw
   }
 
   OutlineFormat
+  strip_format()
+  {
+    return { { { "Width", "Width in x, along the strip; the tool is endless in y.", 50 } },
+             [](const std::vector<double> &v) { return std::make_unique<StripOutline>(v[0] / 2); },
+             5 };
+  }
+
+  OutlineFormat
   rounded_rectangle_format()
   {
     return { { { "Width in x", "Width of the rectangle in the rolling direction.", 100 },

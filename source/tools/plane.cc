@@ -3,19 +3,7 @@
 
 namespace tribodraw
 {
-  namespace
-  {
-    Plane::Facing
-    read_facing(Parameters &parameters)
-    {
-      const std::string facing = parameters.choice(
-          "Facing", { "down", "up" },
-          "Where the flat surface looks: `down` for a blank holder above the sheet, `up` for a plate below it.");
-      return facing == "up" ? Plane::Facing::up : Plane::Facing::down;
-    }
-  } // namespace
-
-  Plane::Plane(const Facing facing) : normal_z(facing == Facing::up ? 1 : -1)
+  Plane::Plane(const Facing facing) : normal(tribodraw::normal_z(facing))
   {
   }
 
@@ -26,7 +14,7 @@ namespace tribodraw
   ToolDistance
   Plane::distance(const Eigen::Vector3d &x) const
   {
-    return { normal_z * x[2], normal_z * Eigen::Vector3d::UnitZ(), Eigen::Matrix3d::Zero() };
+    return { normal * x[2], normal * Eigen::Vector3d::UnitZ(), Eigen::Matrix3d::Zero() };
   }
 
   double
@@ -38,7 +26,7 @@ namespace tribodraw
   std::string
   Plane::describe() const
   {
-    return normal_z > 0 ? "flat plate facing up" : "flat plate facing down";
+    return normal > 0 ? "flat plate facing up" : "flat plate facing down";
   }
 
   TRIBODRAW_REGISTER(ToolGeometry, Plane, "plane", "A flat tool: blank holder or plate.", "")

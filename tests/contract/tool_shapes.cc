@@ -3,6 +3,8 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/tools/tool_geometry.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -136,6 +138,24 @@ TEST_P(ToolShape, NormalAndCurvatureAreTheDerivatives)
   EXPECT_GT(smooth, 0.95 * checked);
 }
 
+TEST_P(ToolShape, SmallestRadiusIsThatOfItsSharpestConvexPlace)
+{
+  double largest = 0; // convex curvature on the surface
+  for (int i = 0; i < 20000; ++i)
+    {
+      const Vector3d     x = random_point_near_surface();
+      const ToolDistance d = tool->distance(x);
+      if (std::abs(d.distance) > smooth_band())
+        continue;
+      const Matrix3d on_surface = tool->distance(x - d.distance * d.normal).curvature;
+      largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Matrix3d>(on_surface).eigenvalues()[2]);
+    }
+  // The samples may miss the sharpest place of a surface that is not made of arcs by a little.
+  const double expected = 1 / tool->smallest_radius();
+  EXPECT_LE(largest, expected * 1.05 + 1e-12);
+  EXPECT_GE(largest, expected * 0.95);
+}
+
 TEST_P(ToolShape, TellsWhatItIs)
 {
   EXPECT_FALSE(tool->describe().empty());
@@ -155,6 +175,7 @@ INSTANTIATE_TEST_SUITE_P(AllRegistered, ToolShape, ::testing::ValuesIn(names()),
 TEST(ToolShapes, TheShippedOnesAreRegistered)
 {
   for (const char *name :
-       { "plane", "cross die", "cross punch", "square die", "square punch", "cylindrical die", "cylindrical punch" })
+       { "plane", "plate", "cylinder", "sphere", "cross die", "cross punch", "square die", "square punch",
+         "cylindrical die", "cylindrical punch", "hemispherical punch", "U-bend die", "U-bend punch" })
     EXPECT_TRUE(Registry<ToolGeometry>::entries().count(name)) << name;
 }

@@ -17,7 +17,7 @@ namespace tribodraw
     Eigen::Matrix2d hessian;  ///< [1/mm]
   };
 
-  /// Closed curve in the blank's plane, symmetric about x and y: the wall of a punch or of the opening of a die
+  /// Curve in the blank's plane around a region symmetric about x and y: the wall of a punch or of the opening of a die
   /// seen from above. The distance is exact everywhere; its gradient jumps only on the medial axis, which stays
   /// smallest_convex_radius() (inside) and smallest_concave_radius() (outside) away from the curve.
   class Outline
@@ -53,6 +53,24 @@ namespace tribodraw
 
   private:
     double r;
+  };
+
+  /// Two lines along y: tools of plane strain.
+  class StripOutline : public Outline
+  {
+  public:
+    explicit StripOutline(double half_width);
+    PlanDistance distance(const Eigen::Vector2d &x) const override;
+    double
+    smallest_convex_radius() const override
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    std::unique_ptr<Outline> offset(double clearance) const override;
+    std::string              describe() const override;
+
+  private:
+    double a;
   };
 
   /// A rectangle with rounded corners.

@@ -27,6 +27,7 @@ namespace tribodraw
   };
 
   OutlineFormat circle_format();
+  OutlineFormat strip_format();
   OutlineFormat rounded_rectangle_format();
   OutlineFormat cross_format();
 

@@ -1,6 +1,7 @@
 #ifndef tribodraw_tools_plane_h
 #define tribodraw_tools_plane_h
 
+#include <tribodraw/tools/shape_entries.h>
 #include <tribodraw/tools/tool_geometry.h>
 
 namespace tribodraw
@@ -11,11 +12,6 @@ namespace tribodraw
   class Plane : public ToolGeometry
   {
   public:
-    enum class Facing
-    {
-      up,
-      down
-    };
     explicit Plane(Facing facing);
     /// Entry `Facing`.
     explicit Plane(Parameters &parameters);
@@ -24,7 +20,7 @@ namespace tribodraw
     std::string  describe() const override;
 
   private:
-    double normal_z;
+    double normal; ///< its z component
   };
 } // namespace tribodraw
 

@@ -285,7 +285,7 @@ TEST(DrawingTools, SmallestRadiusIsTheOneTheMeshMustResolve)
   EXPECT_EQ(cross_punch.smallest_radius(), 18);
   EXPECT_EQ(square_die.smallest_radius(), 5);
   EXPECT_EQ(square_punch.smallest_radius(), 8);
-  EXPECT_TRUE(std::isinf(Plane(Plane::Facing::up).smallest_radius()));
+  EXPECT_TRUE(std::isinf(Plane(Facing::up).smallest_radius()));
 }
 
 TEST(DrawingTools, PlanClearanceIsTheGapBetweenTheWalls)
@@ -300,7 +300,7 @@ TEST(DrawingTools, PlanClearanceIsTheGapBetweenTheWalls)
 
 TEST(DrawingTools, BlankHolderFacesDown)
 {
-  const ToolDistance d = Plane(Plane::Facing::down).distance({ 5, 6, 2 });
+  const ToolDistance d = Plane(Facing::down).distance({ 5, 6, 2 });
   EXPECT_EQ(d.distance, -2); // 2 mm inside the holder, the body of which is above z = 0
   EXPECT_EQ(d.normal, Vector3d(0, 0, -1));
   EXPECT_EQ(d.curvature, Matrix3d::Zero());

@@ -15,7 +15,7 @@ namespace
   // NUMISHEET'93 square cup: punch 70 x 70, corner 10, edge 8; die 74 x 74, corner 12, edge 5.
   const DrawingPunch punch(std::make_shared<RoundedRectangleOutline>(35, 35, 10), 8);
   const DrawingDie   die(std::make_shared<RoundedRectangleOutline>(37, 37, 12), 5);
-  const Plane        plate(Plane::Facing::up);
+  const Plane        plate(Facing::up);
 
   const Vector3d up(0, 0, 1), down(0, 0, -1);
 

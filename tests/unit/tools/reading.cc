@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace tribodraw;
+using Eigen::Vector3d;
 
 namespace
 {
@@ -65,6 +68,61 @@ TEST(ToolReading, CylindricalTools)
   const auto punch = read("cylindrical punch",
                           "subsection Cylindrical punch\nset Diameter = 100 mm\nset Edge radius = 9.5 mm\nend\n");
   EXPECT_NEAR(punch->distance({ 30, 40, 20 }).distance, 0, 1e-12); // 3-4-5: on the wall
+}
+
+TEST(ToolReading, PlateFacesTheSheet)
+{
+  const std::string entries = "set Width in x = 40 mm\nset Width in y = 30 mm\nset Edge radius = 3 mm\nend\n";
+  const auto        lower   = read("plate", "subsection Plate\nset Facing = up\n" + entries);
+  EXPECT_NEAR(lower->distance({ 16, 11, 2 }).distance, 2, 1e-12);
+  EXPECT_NEAR(lower->distance({ 0, 17, -8 }).distance, 2, 1e-12); // beside it: half width 15
+  // Over the corner: torus of no ring, a sphere about (17, 12, -3).
+  const Vector3d outwards = Vector3d(1, 1, 1).normalized();
+  EXPECT_LT((lower->distance(Vector3d(17, 12, -3) + 4 * outwards).normal - outwards).norm(), 1e-12);
+  const auto upper = read("plate", "subsection Plate\nset Facing = down\n" + entries);
+  EXPECT_NEAR(upper->distance({ 16, 11, 2 }).distance, -2, 1e-12);
+  const std::string text
+      = message("plate", "subsection Plate\nset Facing = up\n" + entries, { "Plate/Edge radius = 16 mm" });
+  EXPECT_NE(text.find("at most half of the smaller width, 15 mm"), std::string::npos) << text;
+}
+
+TEST(ToolReading, CylinderAndSphereTouchInTheOrigin)
+{
+  const auto pin = read("cylinder", "subsection Cylinder\nset Facing = up\nset Diameter = 20 mm\n"
+                                    "set Axis angle = 90 deg\nend\n");
+  EXPECT_NEAR(pin->distance({ 0, 55, 1.5 }).distance, 1.5, 1e-12);
+  EXPECT_NEAR(pin->distance({ 8, -3, -4 }).distance, 0, 1e-12); // 6-8-10 from the axis at z = -10
+  const auto skew = read("cylinder", "subsection Cylinder\nset Facing = down\nset Diameter = 20 mm\n"
+                                     "set Axis angle = 45 deg\nend\n");
+  EXPECT_NEAR(skew->distance({ 30, 30, 0 }).distance, 0, 1e-12); // along the axis
+  EXPECT_NEAR(skew->distance({ 10, -10, 10 }).distance, std::sqrt(200.) - 10, 1e-12);
+  const auto ball = read("sphere", "subsection Sphere\nset Facing = down\nset Diameter = 20 mm\nend\n");
+  EXPECT_NEAR(ball->distance({ 3, 4, 10 }).distance, -5, 1e-12);
+  EXPECT_NEAR(ball->distance({ 0, 0, -1 }).distance, 1, 1e-12);
+}
+
+TEST(ToolReading, HemisphericalPunchHasTheCurvatureOfItsPole)
+{
+  const auto punch = read("hemispherical punch", "subsection Hemispherical punch\nset Diameter = 101.6 mm\nend\n");
+  const ToolDistance pole = punch->distance({ 0, 0, 0 }); // where the middle node of a blank touches
+  EXPECT_NEAR(pole.distance, 0, 1e-12);
+  Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
+  expected(0, 0) = expected(1, 1) = 1 / 50.8;
+  EXPECT_LT((pole.curvature - expected).norm(), 1e-12);
+  EXPECT_NEAR(punch->distance({ 30.48, 40.64, 90 }).distance, 0, 1e-12); // 3-4-5 on the wall
+}
+
+TEST(ToolReading, UBendToolsAreEndlessInY)
+{
+  // NUMISHEET'93 2-D draw bending: punch 50, radius 5; opening 52 as the punch with 1 mm on each side; radius 5.
+  const auto die   = read("U-bend die", "subsection U-bend die\nset Width = 50 mm\nset Edge radius = 5 mm\n"
+                                          "set Clearance = 1 mm\nend\n");
+  const auto punch = read("U-bend punch", "subsection U-bend punch\nset Width = 50 mm\nset Edge radius = 5 mm\nend\n");
+  EXPECT_NEAR(die->distance({ 25, 300, -30 }).distance, 1, 1e-12);
+  EXPECT_NEAR(punch->distance({ -26, -300, 30 }).distance, 1, 1e-12);
+  // Centre of the die's edge at x = 31, z = -5.
+  const double s = std::sqrt(0.5);
+  EXPECT_LT((die->distance({ 31 - 5 * s, 7, -5 + 5 * s }).normal - Vector3d(-s, 0, s)).norm(), 1e-12);
 }
 
 TEST(ToolReading, InvalidOutlineNamesSectionAndNumbers)
