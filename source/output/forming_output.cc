@@ -42,10 +42,10 @@ namespace tribodraw
     }
 
     std::vector<bool>
-    last_is_integer(const std::size_t n)
+    integer_is(const std::size_t n, const std::size_t column)
     {
       std::vector<bool> integer(n, false);
-      integer.back() = true;
+      integer[column] = true;
       return integer;
     }
 
@@ -64,12 +64,14 @@ namespace tribodraw
                   "starved_area_fraction", "lubricant_volume_error", "newton_iterations" }),
         energy({ "time_s", "punch_travel_mm", "increment_mm", "external_work_j", "elastic_energy_j", "plastic_work_j",
                  "friction_work_j", "contact_energy_j", "energy_error", "force_imbalance", "residual",
-                 "max_penetration_mm", "newton_iterations" })
+                 "max_penetration_mm", "newton_iterations", "stabilisation_work_j", "flc_margin", "unloaded_share" }),
+        tools({ "time_s", "punch_travel_mm", "tool", "force_x_n", "force_y_n", "force_z_n", "place_x_mm", "place_y_mm",
+                "place_z_mm" })
   {
   }
 
   void
-  HistoryWriter::committed(const Simulation &, const IncrementRecord &r)
+  HistoryWriter::committed(const Simulation &simulation, const IncrementRecord &r)
   {
     const unsigned punch = static_cast<unsigned>(Face::punch_side), die = static_cast<unsigned>(Face::die_side);
     const auto     its = static_cast<long>(r.newton_iterations);
@@ -81,23 +83,45 @@ namespace tribodraw
     const double joule = 1e-3; // 1 N mm
     energy.add_row({ r.time, r.punch_travel, r.increment, joule * r.external_work, joule * r.elastic_energy,
                      joule * r.plastic_work, joule * r.friction_work, joule * r.contact_energy, r.energy_error(),
-                     r.force_imbalance, r.residual, r.max_penetration, its });
-    write();
+                     r.force_imbalance, r.residual, r.max_penetration, its, joule * r.stabilisation_work,
+                     r.forming_limit.margin, r.unloaded });
+    const auto &rigid = simulation.contact().tools();
+    for (std::size_t t = 0; t < rigid.size(); ++t)
+      {
+        const Vector3d force
+            = simulation.tools_away() ? Vector3d(0, 0, 0) : Vector3d(simulation.contact().tool_forces()[t]);
+        const Vector3d &place = rigid[t].place;
+        tools.add_row({ r.time, r.punch_travel, static_cast<long>(t), force[0], force[1],
+                        force[2] * simulation.shell().mesh().symmetry_factor, place[0], place[1], place[2] });
+      }
+    write(simulation);
   }
 
   void
-  HistoryWriter::finished(const Simulation &, bool)
+  HistoryWriter::finished(const Simulation &simulation, bool)
   {
-    write();
+    write(simulation);
   }
 
   void
-  HistoryWriter::write() const
+  HistoryWriter::write(const Simulation &simulation) const
   {
     if (parallel::rank() != 0)
       return;
     history.save(folder / "history.csv");
     energy.save(folder / "energy.csv");
+    // The three roles stand in history.csv.
+    const ToolSet &set     = simulation.tools();
+    const int      n_roles = (set.die >= 0) + (set.punch >= 0) + (set.holder >= 0);
+    if (static_cast<int>(set.tools.size()) == n_roles)
+      return;
+    CsvTable named(tools.columns());
+    for (auto row : tools.rows())
+      {
+        row[2] = set.tools[std::get<long>(row[2])].name;
+        named.add_row(row);
+      }
+    named.save(folder / "tools.csv");
   }
 
   void
@@ -105,13 +129,15 @@ namespace tribodraw
   {
     archive.put("output/history", flatten(history));
     archive.put("output/energy", flatten(energy));
+    archive.put("output/tools", flatten(tools));
   }
 
   void
   HistoryWriter::load(const Archive &archive)
   {
-    restore(history, archive.numbers("output/history"), last_is_integer(history.columns().size()));
-    restore(energy, archive.numbers("output/energy"), last_is_integer(energy.columns().size()));
+    restore(history, archive.numbers("output/history"), integer_is(history.columns().size(), 16));
+    restore(energy, archive.numbers("output/energy"), integer_is(energy.columns().size(), 12));
+    restore(tools, archive.numbers("output/tools"), integer_is(tools.columns().size(), 2));
   }
 
   FieldWriter::FieldWriter(std::filesystem::path output_folder, const double distance,
@@ -143,11 +169,19 @@ namespace tribodraw
         auto       &mu       = fields.node_scalars[std::string("friction_coefficient_") + side(f)];
         for (unsigned i = 0; i < shell.n_nodes(); ++i)
           {
-            pressure.push_back(face.pressure[i]);
-            mu.push_back(face.tool[i] >= 0 ? simulation.contact().friction(static_cast<Face>(f))[i]
+            const bool touches = face.tool[i] >= 0 && !simulation.tools_away();
+            pressure.push_back(touches ? face.pressure[i] : 0.);
+            mu.push_back(touches ? simulation.contact().friction(static_cast<Face>(f))[i]
                                            : std::numeric_limits<double>::quiet_NaN());
           }
         fields.units[std::string("contact_pressure_") + side(f)] = "MPa";
+      }
+    if (!in_the_tools.empty())
+      {
+        auto &springback = fields.node_vectors["springback"];
+        for (unsigned i = 0; i < shell.n_nodes(); ++i)
+          springback.push_back(fields.points[i] - in_the_tools[i]);
+        fields.units["springback"] = "mm";
       }
     for (auto &[name, values] : simulation.friction().fields())
       {
@@ -196,11 +230,19 @@ namespace tribodraw
       velocity[i] = (position[i] - before[i]) / (r.time - previous_time);
     previous_position = position;
     previous_time     = r.time;
-    if (r.punch_travel > 0 && r.punch_travel >= next_travel)
+    if (r.path > 0 && r.path >= next_travel && !simulation.tools_away())
       {
-        next_travel = r.punch_travel + travel_between;
+        next_travel = r.path + travel_between;
         write_step(simulation, r);
       }
+  }
+
+  void
+  FieldWriter::unloading(const Simulation &simulation)
+  {
+    if (simulation.record().time != last_written)
+      write_step(simulation, simulation.record());
+    in_the_tools = simulation.shell().committed().position;
   }
 
   void

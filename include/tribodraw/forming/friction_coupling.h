@@ -48,6 +48,9 @@ namespace tribodraw
     virtual void        save(Archive &) const {}
     virtual void        load(const Archive &) {}
   };
+
+  /// Friction coefficient of each face, weighted with the normal force, in the committed state; 0 without contact.
+  std::array<double, n_faces> mean_coefficients(const Shell &shell, const Contact &contact);
 } // namespace tribodraw
 
 #endif

@@ -11,8 +11,9 @@
 
 namespace tribodraw
 {
-  /// history.csv (one row per committed increment with punch travel or closing) and energy.csv (work, energies, force
-  /// balance, solver figures). Forces and energies are of the full part.
+  /// history.csv (one row per committed increment with punch travel or closing), energy.csv (work, energies, force
+  /// balance, solver figures) and, with tools beyond die, punch and blank holder, tools.csv (force on and place of every
+  /// tool). Forces and energies are of the full part; of a horizontal force on a tool it is the modelled part's.
   class HistoryWriter : public Observer
   {
   public:
@@ -23,10 +24,10 @@ namespace tribodraw
     void load(const Archive &archive) override;
 
   private:
-    void write() const;
+    void write(const Simulation &simulation) const;
 
     std::filesystem::path folder;
-    CsvTable              history, energy;
+    CsvTable              history, energy, tools;
   };
 
   /// solution.pvd with VTU steps every so much punch travel, and at the end nodes_final.csv, elements_final.csv and
@@ -37,6 +38,7 @@ namespace tribodraw
     /// @param travel_between punch travel between two VTU steps [mm]; the first and the last state are always written
     FieldWriter(std::filesystem::path folder, double travel_between, std::shared_ptr<const FormingLimitCurve> limit);
     void committed(const Simulation &simulation, const IncrementRecord &record) override;
+    void unloading(const Simulation &simulation) override;
     void finished(const Simulation &simulation, bool converged) override;
     void save(Archive &archive) const override;
     void load(const Archive &archive) override;
@@ -51,8 +53,30 @@ namespace tribodraw
     unsigned                                 step = 0;
     std::shared_ptr<const FormingLimitCurve> limit;
     PvdCollection                            collection;
-    std::vector<Eigen::Vector3d>             previous_position, velocity;
+    std::vector<Eigen::Vector3d>             previous_position, velocity, in_the_tools; // the last: before the unloading
     double                                   previous_time = 0, last_written = -1;
+  };
+
+  /// results.csv: the figures one runs the case for, at the end; edge_profile.csv: the outer edge of the blank over the angle
+  /// about the punch axis, from which ears are read.
+  class ResultsWriter : public Observer
+  {
+  public:
+    explicit ResultsWriter(std::filesystem::path folder);
+    void committed(const Simulation &simulation, const IncrementRecord &record) override;
+    void unloading(const Simulation &simulation) override;
+    void finished(const Simulation &simulation, bool converged) override;
+    void save(Archive &archive) const override;
+    void load(const Archive &archive) override;
+
+  private:
+    void write_results(const Simulation &simulation, bool converged) const;
+    void write_edge_profile(const Simulation &simulation) const;
+
+    std::filesystem::path        folder;
+    double                       max_force = 0, travel_at_max_force = 0, max_penetration = 0, newton_iterations = 0;
+    double                       elastic_energy_in_the_tools = 0;
+    std::vector<Eigen::Vector3d> in_the_tools;
   };
 } // namespace tribodraw
 

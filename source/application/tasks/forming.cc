@@ -4,12 +4,12 @@
 #include <tribodraw/base/units.h>
 #include <tribodraw/forming/constant_friction.h>
 #include <tribodraw/forming/lubricated_friction.h>
+#include <tribodraw/forming/pressure_friction.h>
 #include <tribodraw/forming/simulation.h>
 #include <tribodraw/friction_table/builder.h>
 #include <tribodraw/output/forming_output.h>
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 
 namespace tribodraw
@@ -75,7 +75,7 @@ namespace tribodraw
           const auto scope = p.section("Forming limit");
           limit            = p.model<FormingLimitCurve>("Model", "Forming limit curve of the sheet.");
         }
-        check_process(p, blank, tools);
+        check_process(p, blank, tools, process);
         {
           const auto scope    = p.section("Output");
           travel_between      = p.quantity("Travel between fields", "mm", Range::positive(), "Punch travel between two VTU steps.",
@@ -87,19 +87,20 @@ namespace tribodraw
 
       std::string describe() const override
       {
-        return "Deep drawing to " + units::format(process.punch_travel, "mm") + " punch travel.";
+        std::string names;
+        for (const auto &tool : tools.tools)
+          names += (names.empty() ? "" : ", ") + tool.name;
+        return (process.punch_travel > 0 ? "Deep drawing to " + units::format(process.punch_travel, "mm") + " punch travel" : "Forming for " + units::format(process.duration, "s")) +
+               (process.unloading ? " and unloading" : "") + " with " + names + ".";
       }
 
       void run(const RunContext &context) override
       {
-        std::unique_ptr<FrictionCoupling> friction;
-        if (lubricated)
-          friction = std::make_unique<LubricatedFriction>(friction_tables(context.output_folder.parent_path()), lubricant, lubrication);
-        else
-          friction = std::make_unique<ConstantFriction>(friction_coefficient);
-        Simulation simulation(blank, material, tools, process, settings, std::move(friction));
+        Simulation simulation(blank, material, tools, process, settings, make_friction(context));
+        simulation.watch_forming_limit(limit);
         simulation.add_observer(std::make_shared<HistoryWriter>(context.output_folder));
         simulation.add_observer(std::make_shared<FieldWriter>(context.output_folder, travel_between, limit));
+        simulation.add_observer(std::make_shared<ResultsWriter>(context.output_folder));
         simulation.checkpoint_to(context.output_folder, checkpoint_distance, what_must_not_change(context.effective_parameters));
         if (context.resume && !simulation.resume(context.output_folder))
           log::warning("There is no checkpoint in " + context.output_folder.string() + "; the run starts from the beginning.");
@@ -107,18 +108,42 @@ namespace tribodraw
       }
 
     private:
+      std::unique_ptr<FrictionCoupling> make_friction(const RunContext &context)
+      {
+        if (lubricated)
+          return std::make_unique<LubricatedFriction>(friction_tables(context.output_folder.parent_path()), lubricant, lubrication);
+        if (pressure_law)
+          return std::make_unique<PressureFriction>(pressure_law);
+        std::vector<double> coefficients;
+        for (const auto &tool : tools.tools)
+          coefficients.push_back(tool.friction.value_or(friction_coefficient));
+        const bool same = std::all_of(coefficients.begin(), coefficients.end(), [&](const double mu) { return mu == coefficients.front(); });
+        return same ? std::make_unique<ConstantFriction>(coefficients.front()) : std::make_unique<ConstantFriction>(coefficients);
+      }
+
       void read_friction(Parameters &p)
       {
         {
-          const auto scope = p.section("Coupling");
-          lubricated       = p.choice("Friction", {"lubricated", "constant"},
-                                      "Where the friction coefficient comes from: lubricated (surfaces, lubricant and process, node by node) or constant.") == "lubricated";
-          if (!lubricated || p.documentation_mode())
-            friction_coefficient = p.quantity("Constant friction coefficient", "", Range::non_negative().usual(0, 0.5), "Coulomb coefficient on all tools.");
+          const auto        scope = p.section("Coupling");
+          const std::string kind  = p.choice("Friction", {"lubricated", "constant", "pressure law"},
+                                             "Where the friction coefficient comes from: lubricated (surfaces, lubricant and process, node by node), constant, or a law of the contact pressure.");
+          lubricated              = kind == "lubricated";
+          if (kind == "constant" || p.documentation_mode())
+            friction_coefficient = p.quantity("Constant friction coefficient", "", Range::non_negative().usual(0, 0.5), "Coulomb coefficient on all tools that have none of their own.");
           else
             p.mark_unselected("Constant friction coefficient");
+          if (kind == "pressure law" || p.documentation_mode())
+            {
+              const auto law_scope = p.section("Pressure law");
+              pressure_law         = p.model<PressureFrictionLaw>("Model", "Friction coefficient over contact pressure.");
+            }
+          else
+            p.mark_unselected("Pressure law");
           if (!lubricated)
             p.mark_unselected(""); // what else stands in this section belongs to lubricated friction
+          for (const auto &tool : tools.tools)
+            if (tool.friction && kind != "constant" && !p.documentation_mode())
+              p.warning("'Tools/" + tool.name + "/Friction coefficient' has no effect with 'Coupling/Friction = " + kind + "'.");
         }
         if (lubricated || p.documentation_mode())
           read_lubrication(p);
@@ -134,6 +159,11 @@ namespace tribodraw
           const auto scope = p.section("Lubricant");
           lubricant        = Lubricant::read(p);
         }
+        std::vector<std::string> zones; // one for each tool, in the order of the tools
+        for (const auto &tool : tools.tools)
+          zones.push_back(tool.name);
+        table_files.resize(zones.size());
+        builders.resize(zones.size());
         for (std::size_t zone = 0; zone < zones.size(); ++zone)
           {
             const std::string entry = zones[zone] + " file";
@@ -151,10 +181,10 @@ namespace tribodraw
       std::vector<std::shared_ptr<const FrictionTable>> friction_tables(const std::filesystem::path &cache)
       {
         std::vector<std::shared_ptr<const FrictionTable>> tables;
-        for (std::size_t zone = 0; zone < zones.size(); ++zone)
+        for (std::size_t zone = 0; zone < builders.size(); ++zone)
           if (builders[zone])
             {
-              Progress progress("Friction table of the " + zones[zone], 1.);
+              Progress progress("Friction table of the " + tools.tools[zone].name, 1.);
               tables.push_back(std::make_shared<FrictionTable>(builders[zone]->load_or_build(cache, [&](const double done) { progress.update(done); })));
               progress.finish(builders[zone]->was_cached() ? "found in " + builders[zone]->cached_file(cache).string() : "kept in " + builders[zone]->cached_file(cache).string());
             }
@@ -163,12 +193,12 @@ namespace tribodraw
         return tables;
       }
 
-      const std::array<std::string, 3> zones{{"Die", "Punch", "Blank holder"}}; // in the order of ToolSet::Index
       bool                             lubricated = false;
       LubricationSettings              lubrication;
       Lubricant                        lubricant;
-      std::array<std::filesystem::path, 3>                 table_files;
-      std::array<std::unique_ptr<FrictionTableBuilder>, 3> builders;
+      std::vector<std::filesystem::path>                 table_files; // of each tool
+      std::vector<std::unique_ptr<FrictionTableBuilder>> builders;
+      std::shared_ptr<const PressureFrictionLaw>         pressure_law;
       Blank                                    blank;
       std::shared_ptr<const SheetMaterial>     material;
       ToolSet                                  tools;

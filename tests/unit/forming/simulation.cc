@@ -177,8 +177,8 @@ TEST(Forming, InconsistentProcessIsExplained)
         const auto blank = in("Blank", Blank::read);
         in("Sheet material", SheetMaterial::read);
         const auto tools = in("Tools", ToolSet::read);
-        in("Process", Process::read);
-        check_process(p, blank, tools);
+        const auto process = in("Process", Process::read);
+        check_process(p, blank, tools, process);
         p.finish();
       }
     catch (const InputError &e)
@@ -193,7 +193,8 @@ TEST(Forming, InconsistentProcessIsExplained)
   const std::string fine = "Blank/Element size = 4 mm";
   EXPECT_EQ(problem({fine}), "");
   has(problem({}), "too coarse for the smallest radius of the tools, 5 mm");
-  has(problem({fine, "Tools/Die/Square die/Width in x = 71 mm"}), "the gap between punch and die is 0.5 mm, less than the sheet is thick");
-  has(problem({fine, "Tools/Die/Square die/Width in x = 68 mm"}), "overlap by 1 mm");
+  const std::string deep = "Process/Punch travel = 20 mm"; // the walls pass each other
+  has(problem({fine, deep, "Tools/Die/Square die/Width in x = 71 mm"}), "the gap between punch and die is 0.5 mm, less than the sheet is thick");
+  has(problem({fine, deep, "Tools/Die/Square die/Width in x = 68 mm"}), "overlap by 1 mm");
   has(problem({fine, "Blank/Width = 80 mm"}), "Blank/Width: the blank does not reach over the rounded edge");
 }

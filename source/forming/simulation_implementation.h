@@ -1,0 +1,77 @@
+#ifndef tribodraw_forming_simulation_implementation_h
+#define tribodraw_forming_simulation_implementation_h
+
+#include <tribodraw/forming/schedule.h>
+#include <tribodraw/forming/simulation.h>
+
+#include <array>
+
+namespace tribodraw
+{
+  /// The state of a run, shared by the files simulation*.cc.
+  struct Simulation::Implementation
+  {
+    const Simulation                      &owner;
+    Blank                                  blank;
+    ToolSet                                tools;
+    Process                                process;
+    SolverSettings                         settings;
+    std::shared_ptr<const SheetMaterial>   material;
+    Shell                                  shell;
+    Schedule                               schedule;
+    Contact                                contact;
+    std::unique_ptr<FrictionCoupling>      friction;
+    std::unique_ptr<IncrementSolver>       solver;
+    std::unique_ptr<NeckingMonitor>        monitor;
+    std::vector<std::shared_ptr<Observer>> observers;
+    IncrementRecord                        record;
+    bool                                   tools_away = false;
+
+    // what a checkpoint holds besides the states of the parts
+    double                       closed         = 0; // share of the forces at the start that is applied
+    double                       next_increment = 0;
+    std::vector<Eigen::Vector3d> last_force; // on each tool, for the trapezoidal rule of the work
+    long                         n_committed = 0;
+
+    std::filesystem::path checkpoint_folder;
+    std::string           identity; // parameters that must not change
+    double                checkpoint_distance = 0, last_checkpoint = 0;
+    unsigned              checkpoint_slot     = 0;
+
+    std::array<unsigned, 3> edge_node; // on the x axis, the y axis, the diagonal corner
+
+    Implementation(const Simulation &the_owner, const Blank &b, std::shared_ptr<const SheetMaterial> m, const ToolSet &t, const Process &p, const SolverSettings &s, std::unique_ptr<FrictionCoupling> f);
+
+    double symmetry() const { return shell.mesh().symmetry_factor; }
+
+    // stages
+    void close();
+    void draw();
+    void unload();
+    bool ends_with_neck() const;
+
+    // a converged increment: figures, history, friction, observers
+    enum class Stage
+    {
+      closing,
+      drawing,
+      unloading
+    };
+    void   advance(const IncrementSolver::Load &load, const IncrementSolver::Outcome &outcome, Stage stage, double increment);
+    void   record_forces(const IncrementSolver::Load &load, const IncrementSolver::Outcome &outcome);
+    void   record_state();
+    void   update_friction(const IncrementSolver::Load &load, const std::vector<Eigen::Vector3d> &motion, bool closing);
+    double tool_force(int role) const; // downwards on the sheet, full part [N]
+    double press_force() const;        // that drives the process, full part [N or MPa]
+    void   find_edge_nodes();
+    double draw_in(unsigned which) const;
+    void   report_step() const;
+
+    [[noreturn]] void fail(const IncrementSolver::Outcome &outcome);
+
+    void write_checkpoint();
+    void restore(const Archive &archive);
+  };
+} // namespace tribodraw
+
+#endif

@@ -1,0 +1,145 @@
+#include <tribodraw/base/parallel.h>
+#include <tribodraw/output/forming_output.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tribodraw
+{
+  using Eigen::Vector3d;
+
+  ResultsWriter::ResultsWriter(std::filesystem::path output_folder) : folder(std::move(output_folder)) {}
+
+  void
+  ResultsWriter::committed(const Simulation &, const IncrementRecord &r)
+  {
+    if (r.punch_force > max_force)
+      {
+        max_force           = r.punch_force;
+        travel_at_max_force = r.punch_travel;
+      }
+    max_penetration = std::max(max_penetration, r.max_penetration);
+    newton_iterations += r.newton_iterations;
+  }
+
+  void
+  ResultsWriter::unloading(const Simulation &simulation)
+  {
+    in_the_tools                = simulation.shell().committed().position;
+    elastic_energy_in_the_tools = simulation.record().elastic_energy;
+  }
+
+  void
+  ResultsWriter::finished(const Simulation &simulation, const bool converged)
+  {
+    if (parallel::rank() != 0)
+      return;
+    write_results(simulation, converged);
+    write_edge_profile(simulation);
+  }
+
+  void
+  ResultsWriter::write_results(const Simulation &simulation, const bool converged) const
+  {
+    const IncrementRecord &r = simulation.record();
+    CsvTable               table({ "quantity", "value", "unit" });
+    const auto add = [&](const char *quantity, const double value, const char *unit) { table.add_row({ std::string(quantity), value, std::string(unit) }); };
+    add("converged", converged, "");
+    if (simulation.process().punch_travel > 0)
+      {
+        add("punch travel", r.punch_travel, "mm");
+        add("largest punch force", max_force, "N");
+        add("punch travel at the largest punch force", travel_at_max_force, "mm");
+        add("punch force at the end", r.punch_force, "N");
+      }
+    else
+      add("time", r.time, "s");
+    add("draw-in x", r.draw_in_x, "mm");
+    add("draw-in y", r.draw_in_y, "mm");
+    add("draw-in diagonal", r.draw_in_diagonal, "mm");
+    const auto &thickness = simulation.shell().node_thickness();
+    const auto  thinnest = std::min_element(thickness.begin(), thickness.end()) - thickness.begin(), thickest = std::max_element(thickness.begin(), thickness.end()) - thickness.begin();
+    const auto &start    = simulation.shell().mesh().nodes;
+    add("least thickness of an element", r.min_thickness, "mm");
+    add("least thickness of a node", thickness[thinnest], "mm");
+    add("least thickness at undeformed x", start[thinnest][0], "mm");
+    add("least thickness at undeformed y", start[thinnest][1], "mm");
+    add("greatest thickness of a node", thickness[thickest], "mm");
+    add("greatest thickness at undeformed x", start[thickest][0], "mm");
+    add("greatest thickness at undeformed y", start[thickest][1], "mm");
+    add("largest plastic strain", r.max_eps_p, "");
+    if (r.forming_limit.margin < 1e299)
+      {
+        add("least margin to the forming limit", r.forming_limit.margin, "");
+        add("least margin at undeformed x", r.forming_limit.place_undeformed[0], "mm");
+        add("least margin at undeformed y", r.forming_limit.place_undeformed[1], "mm");
+      }
+    add("necked", simulation.necking() != nullptr, "");
+    if (const NeckingMonitor *neck = simulation.necking())
+      {
+        add("necked at travel", neck->travel(), "mm");
+        add("necked at x", neck->place()[0], "mm");
+        add("necked at y", neck->place()[1], "mm");
+        add("necked at z", neck->place()[2], "mm");
+      }
+    if (!in_the_tools.empty())
+      {
+        const auto &now     = simulation.shell().committed().position;
+        double      largest = 0;
+        for (std::size_t i = 0; i < now.size(); ++i)
+          largest = std::max(largest, (now[i] - in_the_tools[i]).norm());
+        add("largest springback", largest, "mm");
+        add("elastic energy in the tools", 1e-3 * elastic_energy_in_the_tools, "J");
+        add("elastic energy after springback", 1e-3 * r.elastic_energy, "J");
+      }
+    add("external work", 1e-3 * r.external_work, "J");
+    add("plastic work", 1e-3 * r.plastic_work, "J");
+    add("friction work", 1e-3 * r.friction_work, "J");
+    add("elastic energy", 1e-3 * r.elastic_energy, "J");
+    add("stabilisation work", 1e-3 * r.stabilisation_work, "J");
+    add("energy error", r.energy_error(), "");
+    add("largest penetration", max_penetration, "mm");
+    add("Newton iterations", newton_iterations, "");
+    table.save(folder / "results.csv");
+  }
+
+  void
+  ResultsWriter::write_edge_profile(const Simulation &simulation) const
+  {
+    const Shell &shell = simulation.shell();
+    const auto  &start = shell.mesh().nodes, &now = shell.committed().position;
+    double       bottom = std::numeric_limits<double>::infinity();
+    for (const Vector3d &x : now)
+      bottom = std::min(bottom, x[2]);
+    std::vector<std::pair<double, unsigned>> nodes; // by angle
+    for (unsigned i = 0; i < shell.n_nodes(); ++i)
+      if (shell.mesh().on_outer_edge[i])
+        nodes.emplace_back(std::atan2(start[i][1], start[i][0]) * 180 / M_PI, i);
+    std::sort(nodes.begin(), nodes.end());
+    CsvTable table({ "angle_deg", "x0_mm", "y0_mm", "x_mm", "y_mm", "z_mm", "radius_mm", "height_mm", "thickness_mm" });
+    for (const auto &[angle, i] : nodes)
+      {
+        const Vector3d &x = now[i];
+        // outside the bottom to the rim; the middle surface ends half a thickness above the outside
+        table.add_row({ angle, start[i][0], start[i][1], x[0], x[1], x[2], std::hypot(x[0], x[1]), x[2] - bottom + 0.5 * simulation.blank().thickness, shell.node_thickness()[i] });
+      }
+    table.save(folder / "edge_profile.csv");
+  }
+
+  void
+  ResultsWriter::save(Archive &archive) const
+  {
+    archive.put("output/results", std::vector<double>{ max_force, travel_at_max_force, max_penetration, newton_iterations });
+  }
+
+  void
+  ResultsWriter::load(const Archive &archive)
+  {
+    const auto &values  = archive.numbers("output/results", 4);
+    max_force           = values[0];
+    travel_at_max_force = values[1];
+    max_penetration     = values[2];
+    newton_iterations   = values[3];
+  }
+} // namespace tribodraw
