@@ -20,7 +20,8 @@ namespace tribodraw
   class InputError : public std::runtime_error
   {
   public:
-    using std::runtime_error::runtime_error;
+    /// Control characters of a damaged file in @p text are written as \xNN.
+    explicit InputError(const std::string &text);
   };
 
   /// A solver that met its iteration limit or a state that cannot be solved.

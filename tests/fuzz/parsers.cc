@@ -1,0 +1,131 @@
+#include "fuzz/parsers.h"
+#include "unit/friction_table/sample_pair.h"
+
+#include <tribodraw/application/program.h>
+#include <tribodraw/base/archive.h>
+#include <tribodraw/base/csv.h>
+#include <tribodraw/base/files.h>
+#include <tribodraw/base/units.h>
+#include <tribodraw/friction_table/coefficient_table.h>
+#include <tribodraw/friction_table/friction_table.h>
+#include <tribodraw/output/measured_table.h>
+#include <tribodraw/shell/blank_mesh.h>
+#include <tribodraw/surface/surface_reader.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace tribodraw;
+namespace fs = std::filesystem;
+
+namespace
+{
+  /// A file in memory where there is one, with the content of the moment.
+  class ScratchFile
+  {
+  public:
+    explicit ScratchFile(const std::string &content)
+    {
+      static const fs::path folder = fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
+      file = folder / ("tribodraw_fuzz_" + std::to_string(::getpid()));
+      std::ofstream(file, std::ios::binary) << content;
+    }
+    ~ScratchFile()
+    {
+      std::error_code ignored;
+      fs::remove(file, ignored);
+    }
+    const fs::path &path() const { return file; }
+
+  private:
+    fs::path file;
+  };
+
+  std::vector<std::string>
+  shipped_parameter_files()
+  {
+    std::vector<fs::path> files;
+    for (const auto &entry : fs::directory_iterator(TRIBODRAW_SOURCE_DIR "/prm"))
+      if (entry.path().extension() == ".prm")
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<std::string> contents;
+    for (const auto &file : files)
+      contents.push_back(read_file(file));
+    return contents;
+  }
+
+  void
+  read_parameters(const std::string &text)
+  {
+    Parameters parameters = Parameters::from_text(text);
+    const auto task       = create_task(parameters);
+    parameters.finish();
+    if (task)
+      task->describe();
+  }
+
+  std::string
+  sample_archive()
+  {
+    Archive archive;
+    archive.put("numbers", std::vector<double>{ 1, 2.5, -3e-300 });
+    archive.put("empty", std::vector<double>{});
+    archive.put("text", std::string("Blank/Thickness = 0.82 mm\n"));
+    const ScratchFile file("");
+    archive.save(file.path());
+    return read_file(file.path());
+  }
+
+  std::string
+  sample_coefficients()
+  {
+    CoefficientTable table;
+    table.pressures  = { 1, 10, 100 };
+    table.speeds    = { 10, 100 };
+    table.strains    = { 0, 0.2 };
+    for (int i = 0; i < 12; ++i)
+      table.values.push_back(0.05 + 0.01 * i);
+    return table.to_json().dump();
+  }
+
+  void
+  read_numbers_of_all_columns(const CsvData &data)
+  {
+    for (const auto &column : data.columns)
+      data.numbers(column);
+  }
+
+  std::vector<FuzzedParser>
+  make_parsers()
+  {
+    const std::string csv = "time_s,punch_travel_mm,punch_force_n\n0,0,0\n0.5,1e-3,2.25e4\n1,2,3\r\n";
+    const std::string mesh
+        = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0.5\n2 1 0 0.5\n3 2 0 0.5\n4 0 1 0.5\n5 1 1 0.5\n6 2 1 0.5\n"
+          "$EndNodes\n$Elements\n3\n1 15 2 0 1 1\n2 3 2 7 1 1 2 5 4\n3 2 2 7 1 2 3 6\n$EndElements\n";
+    const std::string new_mesh
+        = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n$EndNodes\n"
+          "$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 2 4 3\n$EndElements\n";
+    return {
+      { "parameters", true, read_parameters, shipped_parameter_files() },
+      { "quantity", true, [](const std::string &text) { units::parse_quantity(text, "mm"); }, { "0.82 mm", "1e-3 m", "25.4e3um " } },
+      { "csv", true, [](const std::string &text) { read_numbers_of_all_columns(read_csv(ScratchFile(text).path())); }, { csv } },
+      { "measured table", true, [](const std::string &text) { read_measured_table(ScratchFile(text).path().string()); }, { csv } },
+      { "checkpoint", false, [](const std::string &text) { Archive::load(ScratchFile(text).path()); }, { sample_archive() } },
+      { "friction table", true, [](const std::string &text) { FrictionTable::read(ScratchFile(text).path()); },
+        { build_friction_table(test::sample_pair(64, true)).to_json().dump() } },
+      { "coefficient table", true, [](const std::string &text) { CoefficientTable::read(ScratchFile(text).path()); },
+        { sample_coefficients() } },
+      { "gmsh", true, [](const std::string &text) { read_gmsh(ScratchFile(text).path()); }, { mesh, new_mesh } },
+    };
+  }
+} // namespace
+
+const std::vector<FuzzedParser> &
+fuzzed_parsers()
+{
+  static const std::vector<FuzzedParser> parsers = make_parsers();
+  return parsers;
+}
