@@ -446,6 +446,19 @@ namespace tribodraw
     return by_factor;
   }
 
+  double
+  StaticAnalysis::linear_energy(const Eigen::VectorXd &u)
+  {
+    the_shell.revert();
+    trial_factor = committed_factor;
+    if (!evaluate({}, 1.))
+      throw ConvergenceError(describe_error("The shell cannot be evaluated.", "static analysis of the shell"));
+    const Eigen::VectorXd part = K.multiply(u);
+    std::vector<double>   sum(part.data(), part.data() + part.size());
+    parallel::sum(sum);
+    return 0.5 * u.dot(Eigen::Map<const Eigen::VectorXd>(sum.data(), part.size()));
+  }
+
   void
   StaticAnalysis::to_factor(const double factor, const double step, const double largest)
   {

@@ -124,6 +124,15 @@ namespace tribodraw
     return central_difference([&](const double dv) { return position(u, v + dv); }, v_max - v_min);
   }
 
+  void
+  SurfaceMesh::mirror(const Side at, const unsigned axis)
+  {
+    std::vector<bool> &on_plane = axis == 0 ? mesh.on_x_plane : axis == 1 ? mesh.on_y_plane : mesh.on_z_plane;
+    on_plane.resize(mesh.nodes.size(), false);
+    for (const unsigned node : side[at])
+      on_plane[node] = true;
+  }
+
   unsigned
   SurfaceMesh::nearest(const Vector3d &point) const
   {

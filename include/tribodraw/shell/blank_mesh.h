@@ -19,6 +19,8 @@ namespace tribodraw
     std::vector<std::array<unsigned, 3>> triangles; ///< counter-clockwise seen from +z
     /// Quarter models: nodes on the symmetry planes x = 0 and y = 0.
     std::vector<bool> on_x_plane, on_y_plane;
+    /// The same for z = 0, for octants of curved shells; may be empty.
+    std::vector<bool> on_z_plane;
     /// Nodes on the free outer edge.
     std::vector<bool> on_outer_edge;
     /// Unit normals at the nodes of a curved surface, where they are known exactly; empty: mean of the adjacent

@@ -32,7 +32,7 @@ namespace tribodraw
 
     enum class ThicknessPoints
     {
-      gauss,  ///< most exact for a given number
+      gauss,   ///< most exact for a given number
       lobatto, ///< with points on the surfaces, where yielding in bending begins
       halves   ///< Gauss points in each half (an even number): most exact for plastic bending and springback
     };

@@ -83,6 +83,8 @@ namespace tribodraw
 
     /// Derivative of the unknowns by the factor in the committed state: the linear solution, if nothing has moved yet.
     Eigen::VectorXd linear_response();
+    /// Strain energy of displacements @p u (and director increments) by the tangent of the committed state [N mm].
+    double linear_energy(const Eigen::VectorXd &u);
 
     double
     factor() const

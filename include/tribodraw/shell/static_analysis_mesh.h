@@ -46,6 +46,9 @@ namespace tribodraw
     /// Unit tangent along the side, for each of its nodes (zero at a pole).
     std::array<std::vector<Eigen::Vector3d>, n_sides> tangent;
 
+    /// Let the membrane of the triangles at a side see their mirror images in a plane of symmetry with normal @p axis.
+    /// To be done before the shell is made, together with SideSupport::symmetry.
+    void mirror(Side at, unsigned axis);
     /// The node nearest to a point.
     unsigned nearest(const Eigen::Vector3d &point) const;
   };

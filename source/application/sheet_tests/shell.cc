@@ -219,14 +219,22 @@ namespace tribodraw
         std::size_t                      n_loaded = 1; ///< points of the curve before the release
         std::vector<double>              moment;       ///< of each turned side, last and loaded
         std::vector<double>              loaded_turn;
-        double                           max_eps_p = 0;
-        unsigned                         n_fields  = 0;
+        double                           max_eps_p = 0, linear_energy = 0;
+        unsigned                         n_fields = 0;
         PvdCollection                    collection;
+
+        /// The committed one, or that of the linear solution.
+        double
+        elastic_energy() const
+        {
+          return shell.elastic_energy() + linear_energy;
+        }
 
         void
         solve_linear(StaticAnalysis &analysis)
         {
           const Eigen::VectorXd u = analysis.linear_response();
+          linear_energy           = analysis.linear_energy(u);
           shell.move(u);
           add_point(1., shell.trial(), {}, 1);
           n_loaded = factor.size();
@@ -249,7 +257,7 @@ namespace tribodraw
           padded.resize(test.shell_case.turned_sides.size() + (test.shell_case.moved_sides.empty() ? 0 : 1),
                         std::numeric_limits<double>::quiet_NaN());
           row.insert(row.end(), padded.begin(), padded.end());
-          row.emplace_back(shell.elastic_energy());
+          row.emplace_back(elastic_energy());
           row.emplace_back(shell.plastic_work());
           row.emplace_back(static_cast<long>(iterations));
           curve->add_row(std::move(row));
@@ -374,7 +382,7 @@ namespace tribodraw
                 results.add_row({ "angle_loaded_" + number, loaded_turn[k], std::string("rad") });
               results.add_row({ "angle_" + number, turn[k], std::string("rad") });
             }
-          results.add_row({ std::string("elastic_energy"), shell.elastic_energy(), std::string("N mm") });
+          results.add_row({ std::string("elastic_energy"), elastic_energy(), std::string("N mm") });
           results.add_row({ std::string("plastic_work"), shell.plastic_work(), std::string("N mm") });
           results.add_row({ std::string("largest_plastic_strain"), max_eps_p, std::string("1") });
           return results;

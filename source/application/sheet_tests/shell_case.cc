@@ -334,7 +334,11 @@ namespace tribodraw
     parametric.u_max    = surface.u_range[1];
     parametric.v_min    = surface.v_range[0];
     parametric.v_max    = surface.v_range[1];
-    return make_surface_mesh(parametric, surface.n_u, surface.n_v, surface.pattern);
+    SurfaceMesh result  = make_surface_mesh(parametric, surface.n_u, surface.n_v, surface.pattern);
+    for (unsigned s = 0; s < SurfaceMesh::n_sides; ++s)
+      if (supports[s].mirror >= 0)
+        result.mirror(static_cast<Side>(s), static_cast<unsigned>(supports[s].mirror));
+    return result;
   }
 
   Supports

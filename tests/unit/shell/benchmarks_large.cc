@@ -67,8 +67,8 @@ namespace
 
 TEST(LargeRotationBenchmark, CantileverUnderEndShear)
 {
-  Model m(flat(10, 1, 16, 1), 0.1, elastic_material(1.2e6, 0)); // the mesh of the source
-  m.hold(Side::u_min, SideSupport::clamped());
+  Model m(flat(10, 1, 16, 1), SideSupports{ { Side::u_min, SideSupport::clamped() } }, 0.1,
+          elastic_material(1.2e6, 0)); // the mesh of the source
   m.loads.add_edge_force(m.surface.mesh, boundary_edges(m.surface.mesh, m.surface.side[Side::u_max]), { 0, 0, 4 });
   StaticAnalysis::Settings settings;
   settings.residual_tolerance = 1e-10;
@@ -96,8 +96,7 @@ TEST(LargeRotationBenchmark, CantileverUnderEndShear)
 
 TEST(LargeRotationBenchmark, StripRollsUpToACircle)
 {
-  Model m(flat(12, 1, 48, 1), 0.1, elastic_material(1.2e6, 0));
-  m.hold(Side::u_min, SideSupport::clamped());
+  Model m(flat(12, 1, 48, 1), SideSupports{ { Side::u_min, SideSupport::clamped() } }, 0.1, elastic_material(1.2e6, 0));
   // The director of the end turns about y: exact elastica, U = L (1 - sin(phi) / phi), W = L (1 - cos(phi)) / phi.
   m.loads.add_edge_moment(m.surface.mesh, boundary_edges(m.surface.mesh, m.surface.side[Side::u_max]),
                           { 0, -50 * pi / 3, 0 });
@@ -132,24 +131,30 @@ TEST(LargeRotationBenchmark, HemisphereWithHole)
 
 TEST(LargeRotationBenchmark, OpenCylinder)
 {
-  const auto                             m        = open_cylinder(24, 36, GridPattern::alternating); // as in the source
+  // The mesh of the source. Quadratic solids (C3D20R, 24 x 36 x 1) with CalculiX 2.20 end at 2.765, 4.564, 3.263; with
+  // 30 times the shear modulus across the sheet at 2.73, 4.55, 3.27: shear is one per cent of the first column.
+  const auto                             m        = open_cylinder(24, 36, GridPattern::parallel);
   StaticAnalysis                         analysis = m->analysis();
   const Vector3d                         top(0, 0, 4.953), side(0, 4.953, 0), end(5.175, 4.953, 0);
   const std::vector<DisplacementMeasure> measures{ m->at(top, 2), m->at(side, 1, -1), m->at(end, 1, -1) };
   const Row                              last{ 1, { 2.768, 4.551, 3.269 } };
   for (const Row &row :
-       { Row{ .05, { 1.260, 1.471, 1.493 } }, Row{ .2, { 2.079, 2.904, 3.106 } }, Row{ .5, { 2.473, 3.653, 3.718 } } })
+       { Row{ .025, { .819, .864, .872 } }, Row{ .05, { 1.260, 1.471, 1.493 } }, Row{ .1, { 1.707, 2.217, 2.293 } },
+         Row{ .2, { 2.079, 2.904, 3.106 } }, Row{ .3, { 2.257, 3.227, 3.452 } }, Row{ .4, { 2.376, 3.443, 3.632 } },
+         Row{ .5, { 2.473, 3.653, 3.718 } } })
     {
       analysis.to_factor(row.factor, 0.05, 0.2);
-      expect_row(analysis, measures, row, last, 1e-2);
+      expect_row(analysis, measures, row, last, 5e-3);
     }
-  // The snap: at the displacement of the source the load, 0.525.
+  // The snap, where load control ends: at the displacement of the source its load, 0.525, and the other displacements.
   analysis.to_displacement(measures[1], 4.061, 0.05, 0.1);
-  EXPECT_NEAR(analysis.factor(), 0.525, 1.1e-2 * 0.525);
-  for (const Row &row : { Row{ .7, { 2.672, 4.385, 3.378 } }, last })
+  EXPECT_NEAR(analysis.factor(), 0.525, 5e-3 * 0.525);
+  expect_row(analysis, measures, { .525, { 2.543, 4.061, 3.580 } }, last, 1e-2);
+  for (const Row &row : { Row{ .6, { 2.618, 4.274, 3.452 } }, Row{ .7, { 2.672, 4.385, 3.378 } },
+                          Row{ .8, { 2.710, 4.455, 3.332 } }, Row{ .9, { 2.741, 4.508, 3.297 } }, last })
     {
       analysis.to_factor(row.factor, 0.02, 0.2);
-      expect_row(analysis, measures, row, last, 1.1e-2);
+      expect_row(analysis, measures, row, last, 1e-2);
     }
 }
 

@@ -65,18 +65,20 @@ end
   bend(const double radius, std::shared_ptr<const SheetMaterial> material, const unsigned n_points, const Rule rule,
        const double mid_surface_stretch = 1)
   {
-    constexpr double thickness = 0.82, width = 0.1;
-    const unsigned   n      = 8;
-    const double     length = 0.3 * radius; // sides of 1/27 rad: facets cost (1/27)^2 / 24
-    Model            m(flat(length, width, n, 1), thickness, std::move(material), n_points, rule);
-    const double     angle = length * mid_surface_stretch / radius;
-    const NodeSet   &end   = m.surface.side[Side::u_max];
-    Supports         released(m.shell);
+    constexpr double   thickness = 0.82, width = 0.1;
+    const unsigned     n      = 8;
+    const double       length = 0.3 * radius; // sides of 1/27 rad: facets cost (1/27)^2 / 24
+    const SideSupports held{ { Side::u_min, SideSupport::symmetry(0) },
+                             { Side::v_min, SideSupport::symmetry(1) },
+                             { Side::v_max, SideSupport::symmetry(1) } };
+    Model              m(flat(length, width, n, 1), held, thickness, std::move(material), n_points, rule);
+    const double       angle = length * mid_surface_stretch / radius;
+    const NodeSet     &end   = m.surface.side[Side::u_max];
+    Supports           released(m.shell);
+    for (const auto &[side, support] : held)
+      apply_support(released, m.surface, side, support);
     for (Supports *s : { &m.supports, &released })
       {
-        apply_support(*s, m.surface, Side::u_min, SideSupport::symmetry(0));
-        apply_support(*s, m.surface, Side::v_min, SideSupport::symmetry(1));
-        apply_support(*s, m.surface, Side::v_max, SideSupport::symmetry(1));
         s->fix(m.surface.nearest({ 0, 0, 0 }), 2);
         s->fix(m.surface.nearest({ 0, width, 0 }), 2);
       }
@@ -133,27 +135,63 @@ end
     return plastic_material(youngs_modulus, 0.3, sigma_y, 1, 0);
   }
 
+  /// The rings of a quarter become thinner towards the rim, to a twentieth of the mean thickness.
+  SurfaceMesh
+  graded_disc(const double radius, const unsigned n)
+  {
+    constexpr double at_rim = 0.05;
+    return surface(0, 1, 0, pi / 2, n, 1, GridPattern::polar, [radius](double u, double a) {
+      const double r = radius * (at_rim * u + (1 - at_rim) * (1 - (1 - u) * (1 - u)));
+      return Vector3d(r * std::cos(a), r * std::sin(a), 0);
+    });
+  }
+
   double
   circular_limit(const unsigned n, const bool clamped)
   {
     const double R = plate_size;
-    Model        m(disc(R, n), plate_thickness, ideally_plastic(), 6, Rule::halves);
-    m.hold(Side::u_max, clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } }));
-    m.hold(Side::v_min, SideSupport::symmetry(1));
-    m.hold(Side::v_max, SideSupport::symmetry(0));
+    Model        m(clamped ? graded_disc(R, n) : disc(R, n),
+            SideSupports{
+                { Side::u_max, clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } }) },
+                { Side::v_min, SideSupport::symmetry(1) },
+                { Side::v_max, SideSupport::symmetry(0) } },
+            plate_thickness, ideally_plastic(), 6, Rule::halves);
     m.loads.add_surface_force(m.surface.mesh, { 0, 0, plastic_moment / (R * R) });
     return limit_load(m, { 0, 0, 0 }, 3e-3);
+  }
+
+  /// Limit load of a circular plate for von Mises as multiple of M_p / R^2 (H. G. Hopkins, A. J. Wang, J. Mech. Phys.
+  /// Solids 3 (1955) 117). Every point yields: m_r = 2/sqrt(3) cos(a + pi/6), m_t = 2/sqrt(3) cos(a - pi/6), and
+  /// equilibrium (r m_r)' = m_t - q / 2 with q = p r^2 gives dq/da = 2 q sin(a + pi/6) / (sqrt(3)/4 q - sin a), from a
+  /// = 0 in the centre to pi/3 (m_r = 0) or 5 pi/6 (the hinge at a clamped rim).
+  double
+  circular_limit_exact(const bool clamped)
+  {
+    const auto slope
+        = [](double a, double q) { return 2 * q * std::sin(a + pi / 6) / (std::sqrt(3.) / 4 * q - std::sin(a)); };
+    double         a = 1e-4, q = 8 * a / std::sqrt(3.);
+    const unsigned n = 2000;
+    const double   h = ((clamped ? 5 * pi / 6 : pi / 3) - a) / n;
+    for (unsigned k = 0; k < n; ++k, a += h) // Runge-Kutta
+      {
+        const double k1 = slope(a, q), k2 = slope(a + h / 2, q + h / 2 * k1), k3 = slope(a + h / 2, q + h / 2 * k2),
+                     k4 = slope(a + h, q + h * k3);
+        q += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+      }
+    return q;
   }
 
   double
   square_limit(const unsigned n, const bool clamped)
   {
-    const double a = plate_size;
-    Model        m(flat(a / 2, a / 2, n, n), plate_thickness, ideally_plastic(), 6, Rule::halves);
-    m.hold(Side::u_min, SideSupport::symmetry(0));
-    m.hold(Side::v_min, SideSupport::symmetry(1));
-    for (const Side side : { Side::u_max, Side::v_max })
-      m.hold(side, clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } }));
+    const double      a    = plate_size;
+    const SideSupport edge = clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } });
+    Model             m(flat(a / 2, a / 2, n, n),
+                        SideSupports{ { Side::u_min, SideSupport::symmetry(0) },
+                          { Side::v_min, SideSupport::symmetry(1) },
+                          { Side::u_max, edge },
+                          { Side::v_max, edge } },
+                        plate_thickness, ideally_plastic(), 6, Rule::halves);
     m.loads.add_surface_force(m.surface.mesh, { 0, 0, plastic_moment / (a * a) });
     return limit_load(m, { 0, 0, 0 }, 2e-3);
   }
@@ -205,17 +243,15 @@ TEST(PlasticBending, PointsInEachHalfAreMoreExact)
 
 TEST(LimitLoad, CircularPlates)
 {
-  // Multiples of M_p / R^2 for von Mises: 6.51 and 12.5 (H. G. Hopkins, A. J. Wang, J. Mech. Phys. Solids 3 (1955)
-  // 117). They lie above those for Tresca, 6.00 and 11.26, and below 2/sqrt(3) times these.
-  const double supported = circular_limit(24, false);
-  EXPECT_NEAR(supported, 6.51, 5e-3 * 6.51);
-  // The hinge at a clamped rim converges with an order of only 0.6: what three meshes extrapolate to is certain to 2 %.
-  const double a = circular_limit(12, true), b = circular_limit(24, true), c = circular_limit(48, true);
-  const double limit = c + (c - b) / ((b - a) / (c - b) - 1);
-  EXPECT_LT(c, b);
-  EXPECT_NEAR(limit, 12.5, 0.02 * 12.5) << a << " " << b << " " << c;
-  EXPECT_GT(limit, 11.26);
-  EXPECT_LT(limit, 11.26 * 2 / std::sqrt(3.));
+  const double supported = circular_limit_exact(false), clamped = circular_limit_exact(true);
+  EXPECT_NEAR(supported, 6.51, 0.01);
+  EXPECT_NEAR(clamped, 12.5, 0.06);
+  EXPECT_NEAR(circular_limit(24, false), supported, 2e-3 * supported);
+  // Elements are an upper bound that smears the hinge at the clamped rim over the last ring.
+  const double coarse = circular_limit(8, true), fine = circular_limit(24, true);
+  EXPECT_GT(fine, clamped);
+  EXPECT_NEAR(fine, clamped, 5e-3 * clamped);
+  EXPECT_GT(std::log((coarse - clamped) / (fine - clamped)) / std::log(3.), 1.2);
 }
 
 TEST(LimitLoad, SquarePlates)

@@ -26,13 +26,14 @@ namespace shell_benchmark
   inline std::unique_ptr<Model>
   square_plate(unsigned n, bool clamped, PlateLoad load)
   {
-    const double a = plate_size;
-    auto         m = std::make_unique<Model>(flat(a / 2, a / 2, n, n), plate_thickness, plate_material(0.3));
-    m->hold(Side::u_min, SideSupport::symmetry(0));
-    m->hold(Side::v_min, SideSupport::symmetry(1));
+    const double      a    = plate_size;
     const SideSupport edge = clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } });
-    m->hold(Side::u_max, edge);
-    m->hold(Side::v_max, edge);
+    auto              m    = std::make_unique<Model>(flat(a / 2, a / 2, n, n),
+                                     SideSupports{ { Side::u_min, SideSupport::symmetry(0) },
+                                                   { Side::v_min, SideSupport::symmetry(1) },
+                                                   { Side::u_max, edge },
+                                                   { Side::v_max, edge } },
+                                     plate_thickness, plate_material(0.3));
     if (load == PlateLoad::uniform)
       m->loads.add_surface_force(m->surface.mesh, { 0, 0, std::pow(a, -4) });
     else
@@ -45,10 +46,13 @@ namespace shell_benchmark
   circular_plate(unsigned n, bool clamped, PlateLoad load)
   {
     const double R = plate_size;
-    auto         m = std::make_unique<Model>(disc(R, n), plate_thickness, plate_material(0.3));
-    m->hold(Side::u_max, clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } }));
-    m->hold(Side::v_min, SideSupport::symmetry(1));
-    m->hold(Side::v_max, SideSupport::symmetry(0));
+    auto         m = std::make_unique<Model>(
+        disc(R, n),
+        SideSupports{
+            { Side::u_max, clamped ? SideSupport::clamped() : SideSupport::supported({ { false, false, true } }) },
+            { Side::v_min, SideSupport::symmetry(1) },
+            { Side::v_max, SideSupport::symmetry(0) } },
+        plate_thickness, plate_material(0.3));
     if (load == PlateLoad::uniform)
       m->loads.add_surface_force(m->surface.mesh, { 0, 0, std::pow(R, -4) });
     else
@@ -61,13 +65,13 @@ namespace shell_benchmark
   inline std::unique_ptr<Model>
   skew_plate(unsigned n)
   {
-    const double L = plate_size;
-    auto         m = std::make_unique<Model>(
+    const SideSupport deflection_held = SideSupport::supported({ { false, false, true } });
+    const double      L               = plate_size;
+    auto              m               = std::make_unique<Model>(
         surface(0, L, 0, L, n, n, GridPattern::alternating,
-                        [](double u, double v) { return Vector3d(u + v * 0.5, v * std::sqrt(3.) / 2, 0); }),
-        plate_thickness, plate_material(0.31));
-    for (const Side side : { Side::v_min, Side::v_max })
-      m->hold(side, SideSupport::supported({ { false, false, true } }));
+                                           [](double u, double v) { return Vector3d(u + v * 0.5, v * std::sqrt(3.) / 2, 0); }),
+        SideSupports{ { Side::v_min, deflection_held }, { Side::v_max, deflection_held } }, plate_thickness,
+        plate_material(0.31));
     m->supports.fix(m->surface.nearest({ 0, 0, 0 }), 0);
     m->supports.fix(m->surface.nearest({ 0, 0, 0 }), 1);
     m->supports.fix(m->surface.nearest({ L, 0, 0 }), 1);
@@ -80,10 +84,12 @@ namespace shell_benchmark
   two_sides_supported(unsigned n)
   {
     const double a = plate_size;
-    auto         m = std::make_unique<Model>(flat(a / 2, a / 2, n, n), plate_thickness, plate_material(0.3));
-    m->hold(Side::u_min, SideSupport::symmetry(0));
-    m->hold(Side::v_min, SideSupport::symmetry(1));
-    m->hold(Side::u_max, SideSupport::supported({ { false, false, true } }));
+    auto         m
+        = std::make_unique<Model>(flat(a / 2, a / 2, n, n),
+                                  SideSupports{ { Side::u_min, SideSupport::symmetry(0) },
+                                                { Side::v_min, SideSupport::symmetry(1) },
+                                                { Side::u_max, SideSupport::supported({ { false, false, true } }) } },
+                                  plate_thickness, plate_material(0.3));
     m->loads.add_surface_force(m->surface.mesh, { 0, 0, std::pow(a, -4) });
     return m;
   }
