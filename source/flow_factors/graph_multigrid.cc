@@ -5,14 +5,66 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <numeric>
+#include <utility>
+
+// Vectors stay inside of this file: how they are passed between differently compiled files does not matter.
+#ifdef __GNUC__
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
 
 namespace tribodraw
 {
+  namespace
+  {
+    // The values of one node, in one vector register: compilers do not see by themselves that they belong together.
+    template <class Real, int n>
+    struct ValuesOfNode
+    {
+      typedef Real Type __attribute__((vector_size(n * sizeof(Real))));
+    };
+    template <class Real>
+    struct ValuesOfNode<Real, 1>
+    {
+      using Type = Real;
+    };
+    template <class Real, int n>
+    using Values = typename ValuesOfNode<Real, n>::Type;
+
+    template <int n, class Real>
+    Values<Real, n>
+    values(const Real *x, const int node)
+    {
+      Values<Real, n> v;
+      std::memcpy(&v, x + static_cast<std::size_t>(node) * n, sizeof v);
+      return v;
+    }
+    template <int n, class Real>
+    void
+    set_values(Real *x, const int node, const Values<Real, n> &v)
+    {
+      std::memcpy(x + static_cast<std::size_t>(node) * n, &v, sizeof v);
+    }
+    template <class To, int n, class From>
+    Values<To, n>
+    converted(const Values<From, n> &v)
+    {
+      if constexpr (n == 1)
+        return static_cast<To>(v);
+      else
+        return __builtin_convertvector(v, Values<To, n>);
+    }
+  } // namespace
+
+  // Couplings of a row in two parts, those to earlier nodes and, from `middle`, those to later ones. Each part is
+  // filled up with zeros to whole blocks: most take one block then, so that the end of the loop can be predicted.
   template <class Real>
   struct GraphMultigrid::Level
   {
-    // Couplings; in each row those to earlier nodes stand first, up to `middle`
+    static constexpr int block = 4;
+
     std::vector<int>  begin, middle, column;
     std::vector<Real> coupling, diagonal, inverse_diagonal;
     // Interpolation
@@ -27,18 +79,27 @@ namespace tribodraw
       return static_cast<int>(inverse_diagonal.size());
     }
 
+    // Sum of couplings times values, from entry `first` to `last`.
+    template <int n>
+    Values<Real, n>
+    coupled(const int first, const int last, const Real *x) const
+    {
+      Values<Real, n> sum{};
+      for (int e = first; e < last; e += block)
+        {
+          const Real *c = &coupling[e];
+          const int  *q = &column[e];
+          sum += (c[0] * values<n>(x, q[0]) + c[1] * values<n>(x, q[1]))
+                 + (c[2] * values<n>(x, q[2]) + c[3] * values<n>(x, q[3]));
+        }
+      return sum;
+    }
+
     template <int n>
     void
     relax(const int i, const int end, const Real *rhs, Real *x) const
     {
-      Real s[n];
-      for (int r = 0; r < n; ++r)
-        s[r] = rhs[i * n + r];
-      for (int e = begin[i]; e < end; ++e)
-        for (int r = 0; r < n; ++r)
-          s[r] += coupling[e] * x[column[e] * n + r];
-      for (int r = 0; r < n; ++r)
-        x[i * n + r] = s[r] * inverse_diagonal[i];
+      set_values<n>(x, i, (values<n>(rhs, i) + coupled<n>(begin[i], end, x)) * inverse_diagonal[i]);
     }
 
     // Forward from zero: only earlier nodes count, and only later ones leave a residual.
@@ -50,13 +111,10 @@ namespace tribodraw
         relax<n>(i, middle[i], rhs, x);
       for (int i = 0; i < size(); ++i)
         {
-          Real residual[n] = {};
-          for (int e = middle[i]; e < begin[i + 1]; ++e)
-            for (int r = 0; r < n; ++r)
-              residual[r] += coupling[e] * x[column[e] * n + r];
+          const Values<CoarseReal, n> residual = converted<CoarseReal, n, Real>(coupled<n>(middle[i], begin[i + 1], x));
           for (int e = p_begin[i]; e < p_begin[i + 1]; ++e)
-            for (int r = 0; r < n; ++r)
-              coarse_rhs[p_column[e] * n + r] += p_weight[e] * residual[r];
+            set_values<n>(coarse_rhs, p_column[e],
+                          values<n>(coarse_rhs, p_column[e]) + static_cast<CoarseReal>(p_weight[e]) * residual);
         }
     }
 
@@ -65,9 +123,12 @@ namespace tribodraw
     correct_and_relax(const Real *rhs, Real *x, const CoarseReal *coarse_x) const
     {
       for (int i = 0; i < size(); ++i)
-        for (int e = p_begin[i]; e < p_begin[i + 1]; ++e)
-          for (int r = 0; r < n; ++r)
-            x[i * n + r] += p_weight[e] * static_cast<Real>(coarse_x[p_column[e] * n + r]);
+        {
+          Values<Real, n> v = values<n>(x, i);
+          for (int e = p_begin[i]; e < p_begin[i + 1]; ++e)
+            v += p_weight[e] * converted<Real, n, CoarseReal>(values<n>(coarse_x, p_column[e]));
+          set_values<n>(x, i, v);
+        }
       for (int i = size() - 1; i >= 0; --i)
         relax<n>(i, begin[i + 1], rhs, x);
     }
@@ -77,50 +138,50 @@ namespace tribodraw
     subtract_image(const Real *x, Real *rhs) const
     {
       for (int i = 0; i < size(); ++i)
-        {
-          Real s[n];
-          for (int r = 0; r < n; ++r)
-            s[r] = rhs[i * n + r] - diagonal[i] * x[i * n + r];
-          for (int e = begin[i]; e < begin[i + 1]; ++e)
-            for (int r = 0; r < n; ++r)
-              s[r] += coupling[e] * x[column[e] * n + r];
-          for (int r = 0; r < n; ++r)
-            rhs[i * n + r] = s[r];
-        }
+        set_values<n>(rhs, i,
+                      values<n>(rhs, i) - diagonal[i] * values<n>(x, i) + coupled<n>(begin[i], begin[i + 1], x));
     }
   };
 
   template <class Real>
   GraphMultigrid::Level<Real>::Level(const GraphMatrix &m, const GraphCoarsening &coarsening)
-      : begin(m.begin), column(m.column.size()), coupling(m.column.size()), p_begin(coarsening.begin),
-        p_column(coarsening.column), p_weight(coarsening.weight.begin(), coarsening.weight.end()),
-        n_coarse(coarsening.n_coarse)
+      : p_begin(coarsening.begin), p_column(coarsening.column),
+        p_weight(coarsening.weight.begin(), coarsening.weight.end()), n_coarse(coarsening.n_coarse)
   {
+    begin.reserve(m.size() + 1);
     middle.reserve(m.size());
-    inverse_diagonal.reserve(m.size());
-    diagonal.reserve(m.size());
-    std::vector<int> later;
+    const auto whole_blocks = [](const int entries) { return (entries + block - 1) / block * block; };
+    begin.push_back(0);
     for (int i = 0; i < m.size(); ++i)
       {
-        // Without a branch, which could not be predicted: the later ones are put aside.
-        int out = m.begin[i], n_later = 0;
-        if (static_cast<int>(later.size()) < m.begin[i + 1] - m.begin[i])
-          later.resize(m.begin[i + 1] - m.begin[i]);
+        int earlier = 0;
+        for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
+          earlier += m.column[e] < i;
+        middle.push_back(begin[i] + whole_blocks(earlier));
+        begin.push_back(middle[i] + whole_blocks(m.begin[i + 1] - m.begin[i] - earlier));
+      }
+    column.resize(begin.back());
+    coupling.resize(begin.back());
+    inverse_diagonal.reserve(m.size());
+    diagonal.reserve(m.size());
+    for (int i = 0; i < m.size(); ++i)
+      {
+        // Without a branch, which could not be predicted
+        std::array<int, 2> place{ { begin[i], middle[i] } };
         for (int e = m.begin[i]; e < m.begin[i + 1]; ++e)
           {
-            const bool earlier = m.column[e] < i;
-            column[out]        = m.column[e];
-            coupling[out]      = static_cast<Real>(m.coupling[e]);
-            later[n_later]     = e;
-            out += earlier;
-            n_later += !earlier;
+            int &p      = place[m.column[e] > i];
+            column[p]   = m.column[e];
+            coupling[p] = static_cast<Real>(m.coupling[e]);
+            ++p;
           }
-        middle.push_back(out);
-        for (int e = 0; e < n_later; ++e, ++out)
-          {
-            column[out]   = m.column[later[e]];
-            coupling[out] = static_cast<Real>(m.coupling[later[e]]);
-          }
+        // What fills up refers to any node that a row has anyway.
+        for (const auto &[from, to] : { std::pair(place[0], middle[i]), std::pair(place[1], begin[i + 1]) })
+          for (int p = from; p < to; ++p)
+            {
+              column[p]   = column[p - 1];
+              coupling[p] = 0;
+            }
         constexpr double least_conductance = 1e-30; // below is nothing, and single precision ends at 1e-38
         const double     d                 = m.diagonal(i);
         inverse_diagonal.push_back(d > least_conductance ? static_cast<Real>(1 / d) : Real(0));
@@ -168,8 +229,8 @@ namespace tribodraw
 
   GraphMultigrid::GraphMultigrid(GraphMatrix matrix, int spacing)
   {
-    constexpr int    smallest        = 300; // a direct solution costs next to nothing
-    constexpr double least_reduction = 0.9; // else the rest is solved directly
+    constexpr int    smallest        = 2000; // a direct solution costs less than the W-cycle from there
+    constexpr double least_reduction = 0.9;  // else the rest is solved directly
     while (matrix.size() > smallest)
       {
         const GraphCoarsening coarsening(matrix, spacing);
@@ -191,9 +252,9 @@ namespace tribodraw
   void
   GraphMultigrid::solve_coarsest(const double *rhs, double *x) const
   {
-    using Values            = Eigen::Matrix<double, Eigen::Dynamic, n, n == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
-    const Eigen::MatrixXd b = Eigen::Map<const Values>(rhs, coarsest->n, n);
-    Eigen::Map<Values>(x, coarsest->n, n) = coarsest->ldlt.solve(b);
+    using Columns           = Eigen::Matrix<double, Eigen::Dynamic, n, n == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+    const Eigen::MatrixXd b = Eigen::Map<const Columns>(rhs, coarsest->n, n);
+    Eigen::Map<Columns>(x, coarsest->n, n) = coarsest->ldlt.solve(b);
   }
 
   template <int n>

@@ -48,7 +48,8 @@ namespace
 
   struct Result
   {
-    double phi_p = 0, shear_flux = 0, residual = 0, imbalance = 0;
+    double   phi_p = 0, shear_flux = 0, residual = 0, imbalance = 0;
+    unsigned iterations = 0;
   };
 
   // Pressure and shear in x, from the gap to the means; the default discretisation.
@@ -63,6 +64,7 @@ namespace
       (drive.shear ? result.shear_flux : result.phi_p) = std::abs(flow.mean_flux(s, 0, all));
       result.residual                                  = std::max(result.residual, s.residual);
       result.imbalance                                 = std::max(result.imbalance, flow.imbalance(s, drive));
+      result.iterations                                = std::max(result.iterations, s.iterations);
     };
     if (one_by_one)
       for (const CellFlow::Drive &drive : drives)
@@ -213,8 +215,8 @@ namespace
   void
   check(const std::string &name, const Result &mine, const Result *reference)
   {
-    std::fprintf(stderr, "%s: phi_p_xx %.9g, residual %.1e, flux balance %.1e\n", name.c_str(), mine.phi_p,
-                 mine.residual, mine.imbalance);
+    std::fprintf(stderr, "%s: phi_p_xx %.9g, %u iterations, residual %.1e, flux balance %.1e\n", name.c_str(),
+                 mine.phi_p, mine.iterations, mine.residual, mine.imbalance);
     if (mine.residual > 1e-10 || mine.imbalance > 1e-10)
       throw std::runtime_error(name + ": residual or flux balance above 1e-10");
     if (reference && (std::abs(mine.phi_p - reference->phi_p) > 1e-9
