@@ -113,22 +113,24 @@ TEST_P(ToolShape, NormalAndCurvatureAreTheDerivatives)
       if (std::abs(d.distance) > smooth_band())
         continue;
       Vector3d gradient;
-      Matrix3d curvature, change;
+      Matrix3d curvature;
+      double   change = 0;
       for (int k = 0; k < 3; ++k)
         {
           const Vector3d     e = h * Vector3d::Unit(k);
           const ToolDistance a = tool->distance(x - e), b = tool->distance(x + e);
           gradient[k]      = (b.distance - a.distance) / (2 * h);
           curvature.col(k) = (b.normal - a.normal) / (2 * h);
-          change.col(k)    = (b.curvature - a.curvature).col(k);
+          change += (b.curvature - d.curvature).norm() + (a.curvature - d.curvature).norm();
         }
       // Central differences: error h^2/6 times the third derivative (a few 1/mm^2) plus rounding 1e-13/h.
       ASSERT_LT((gradient - d.normal).norm(), 1e-7) << x.transpose();
       ++checked;
-      // The curvature jumps where an arc joins a straight piece.
-      if (change.norm() < 1e-4)
+      // The curvature jumps where an arc joins a straight piece, and a little between the patches of a surface from
+      // triangles. The difference of the normals is a mean of the curvature between the two points.
+      if (change < 1e-4)
         {
-          ASSERT_LT((curvature - d.curvature).norm(), 1e-6) << x.transpose();
+          ASSERT_LT((curvature - d.curvature).norm(), 1e-6 + change) << x.transpose();
           ++smooth;
         }
       ASSERT_LT((d.curvature - d.curvature.transpose()).norm(), 1e-13);
@@ -175,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(AllRegistered, ToolShape, ::testing::ValuesIn(names()),
 TEST(ToolShapes, TheShippedOnesAreRegistered)
 {
   for (const char *name :
-       { "plane", "plate", "cylinder", "sphere", "cross die", "cross punch", "square die", "square punch",
+       { "triangle surface", "plane", "plate", "cylinder", "sphere", "cross die", "cross punch", "square die", "square punch",
          "cylindrical die", "cylindrical punch", "hemispherical punch", "U-bend die", "U-bend punch" })
     EXPECT_TRUE(Registry<ToolGeometry>::entries().count(name)) << name;
 }

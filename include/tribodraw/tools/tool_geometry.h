@@ -2,10 +2,10 @@
 #define tribodraw_tools_tool_geometry_h
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
-#include <optional>
+#include <limits>
 #include <string>
-#include <vector>
 
 namespace tribodraw
 {
@@ -34,6 +34,13 @@ namespace tribodraw
     virtual ToolDistance distance(const Eigen::Vector3d &x) const = 0;
     /// Smallest convex radius of the surface [mm]: the mesh must resolve it (infinity for a plane).
     virtual double smallest_radius() const = 0;
+    /// Box around the surface [mm]; without bounds where a shape has none. A check of units compares it with the blank.
+    virtual Eigen::AlignedBox3d
+    extent() const
+    {
+      const Eigen::Vector3d endless = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+      return { -endless, endless };
+    }
     /// One sentence for the log.
     virtual std::string describe() const = 0;
   };
