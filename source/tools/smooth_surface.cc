@@ -346,7 +346,7 @@ namespace tribodraw
       approach(x, foot);
       // On a common border one of two neighbours stops at it and the other a hair further, where rounding hides which
       // is nearer: the one that could move freely is right.
-      const double tie = 1e-12 * best.squared;
+      const double tie = 1e-12 * foot.squared;
       if (foot.squared < best.squared - (foot.at_border() ? tie : -tie))
         best = foot;
       limit = std::min(limit, std::sqrt(foot.squared));
