@@ -259,13 +259,15 @@ namespace tribodraw
         move *= share;
         const double length = std::sqrt(move.dot(metric * move)), u = foot.u, v = foot.v, before = foot.squared;
         evaluate(std::max(0., u + move[0]), std::max(0., v + move[1]));
-        for (int cut = 0; cut < 5 && foot.squared > before * (1 + 1e-12) + 1e-20; ++cut)
+        // Cut what overshoots. Small steps do not, and rounding would be taken for it.
+        const double size = std::sqrt(metric.trace());
+        for (int cut = 0; cut < 5 && length > 1e-4 * size && foot.squared > before; ++cut)
           {
             move *= 0.4;
             evaluate(std::max(0., u + move[0]), std::max(0., v + move[1]));
           }
         // Quadratic convergence: the next step would be of the order of the square of this one.
-        if (length < 1e-8 * std::sqrt(metric.trace()) && share == 1)
+        if (length < 1e-8 * size && share == 1)
           return;
       }
   }
