@@ -149,8 +149,8 @@ namespace tribodraw
   {
     int                                     n;
     const Drive                            *drives;
-    std::vector<double>                     pressure, correction; // empty: zero
-    std::vector<double>                     excess;               // what flows into each pixel more than out of it
+    AlignedArray<double>                    pressure, correction; // empty: zero
+    AlignedArray<double>                    excess;               // what flows into each pixel more than out of it
     Solution                               *solutions;
     std::array<double, CellSolver::max_rhs> drive_norm{};
   };
@@ -159,12 +159,12 @@ namespace tribodraw
   void
   CellFlow::evaluate(Fields &fields) const
   {
-    const CellLayout         &l = k.layout;
-    const int                 n = fields.n, nx = l.nx, ny = l.ny;
-    const std::vector<double> zero(l.stride(), 0.);
-    std::vector<double>       x_flux(nx + 1), below_flux(nx), above_flux(nx);
-    const bool                keep = !fields.pressure.empty();
-    for (std::vector<double> *values : { &fields.pressure, &fields.correction })
+    const CellLayout          &l = k.layout;
+    const int                  n = fields.n, nx = l.nx, ny = l.ny;
+    const AlignedArray<double> zero(l.stride(), 0.);
+    std::vector<double>        x_flux(nx + 1), below_flux(nx), above_flux(nx);
+    const bool                 keep = !fields.pressure.empty();
+    for (AlignedArray<double> *values : { &fields.pressure, &fields.correction })
       for (int iy = 0; iy < ny && !values->empty(); ++iy)
         for (int r = 0; r < n; ++r)
           close_row(&(*values)[l.row(n, iy, r)], l);
@@ -175,9 +175,9 @@ namespace tribodraw
         if (keep)
           for (std::vector<double> &flux : solution.upper_flux)
             flux.resize(grid.size());
-        const auto row = [&](const std::vector<double> &values, const int iy) {
+        const auto row = [&](const AlignedArray<double> &values, const int iy) {
           const int w = CellLayout::wrapped(iy, ny, l.periodic);
-          return w < 0 || values.empty() ? &zero[1] : &values[l.row(n, w, r)];
+          return w < 0 || values.empty() ? &zero[CellLayout::margin] : &values[l.row(n, w, r)];
         };
         const auto y_flux = [&](const int iy, std::vector<double> &flux) {
           std::fill(flux.begin(), flux.end(), 0.);
@@ -230,7 +230,7 @@ namespace tribodraw
   CellFlow::solve_group(const Drive *drives, const int n, Solution *solutions) const
   {
     const CellLayout &l = k.layout;
-    Fields            fields{ n, drives, {}, {}, std::vector<double>(l.size(n)), solutions, {} };
+    Fields            fields{ n, drives, {}, {}, AlignedArray<double>(l.size(n)), solutions, {} };
     for (int r = 0; r < n && !grid.periodic; ++r)
       solutions[r].inflow.assign(grid.n(1 - driven_axis), 0.);
     evaluate(fields);
@@ -247,7 +247,7 @@ namespace tribodraw
         std::array<double, CellSolver::max_rhs> goals{};
         for (int r = 0; r < n; ++r)
           goals[r] = goal * fields.drive_norm[r];
-        std::vector<double> &target = pass == 1 ? fields.pressure : fields.correction;
+        AlignedArray<double> &target = pass == 1 ? fields.pressure : fields.correction;
         target.resize(l.size(n), 0.);
         const unsigned iterations = solver->solve(n, fields.excess, target, goals);
         evaluate(fields);

@@ -34,7 +34,7 @@ namespace tribodraw
   public:
     Cycle(const CellMultigrid &m, int n);
 
-    std::vector<float>    rhs, result;
+    AlignedArray<float>   rhs, result;
     std::array<double, 4> product{}; // of residual and result
     std::array<double, 4> energy{};  // result times matrix times result
 
@@ -51,17 +51,17 @@ namespace tribodraw
       relaxed_again
     };
 
-    const CellMultigrid              &m;
-    const CellCoarsening             &coarsening;
-    const CellLayout                  l;
-    const int                         n; // right-hand sides
-    std::vector<float>                e; // rows in work: what they hand on to the coarse level, then its correction
-    std::vector<float>                zero, spare;
-    std::vector<float>                coarse_rhs, coarse_x;
-    std::array<std::vector<float>, 2> parity; // 1 at even pixels of a row, 1 at odd pixels
-    std::vector<Stage>                stage;
-    const bool                        odd_x, odd_y;        // same colour across the border
-    std::vector<float>                first_row, last_row; // old values of both
+    const CellMultigrid               &m;
+    const CellCoarsening              &coarsening;
+    const CellLayout                   l;
+    const int                          n; // right-hand sides
+    AlignedArray<float>                e; // rows in work: what they hand on to the coarse level, then its correction
+    AlignedArray<float>                zero, spare;
+    AlignedArray<float>                coarse_rhs, coarse_x;
+    std::array<AlignedArray<float>, 2> parity; // 1 at even pixels of a row, 1 at odd pixels
+    std::vector<Stage>                 stage;
+    const bool                         odd_x, odd_y;        // same colour across the border
+    AlignedArray<float>                first_row, last_row; // old values of both
 
     int
     wrapped(const int iy) const
@@ -74,9 +74,9 @@ namespace tribodraw
       return wrapped(iy) >= 0 && wrapped(iy) % 2 == 1;
     }
     float *
-    row(std::vector<float> &field, const int iy, const int r)
+    row(AlignedArray<float> &field, const int iy, const int r)
     {
-      return wrapped(iy) < 0 ? &zero[1] : &field[l.row(n, wrapped(iy), r)];
+      return wrapped(iy) < 0 ? &zero[CellLayout::margin] : &field[l.row(n, wrapped(iy), r)];
     }
     // Rows are worked on in their order, except those at both ends.
     static constexpr int end_rows = 4, rows_in_work = 8;
@@ -85,14 +85,14 @@ namespace tribodraw
     {
       const int w = wrapped(iy);
       if (w < 0)
-        return &zero[1];
+        return &zero[CellLayout::margin];
       const int place = w < end_rows           ? w
                         : w >= l.ny - end_rows ? w - (l.ny - 2 * end_rows)
                                                : 2 * end_rows + w % rows_in_work;
       return &e[l.row(n, place, r)];
     }
     const float *
-    coefficients(const std::vector<float> &field, const int iy) const
+    coefficients(const AlignedArray<float> &field, const int iy) const
     {
       return &field[l.row(1, iy, 0)];
     }
@@ -124,10 +124,10 @@ namespace tribodraw
       : m(m_in), coarsening(*m_in.coarsening), l(m_in.k.layout), n(n_in), odd_x(l.periodic && l.nx % 2 == 1),
         odd_y(l.periodic && l.ny % 2 == 1), first_row(l.stride() * n, 0.f), last_row(first_row)
   {
-    for (std::vector<float> *field : { &rhs, &result })
+    for (AlignedArray<float> *field : { &rhs, &result })
       field->assign(l.size(n), 0.f);
     e.assign(l.row(n, 2 * end_rows + rows_in_work, 0) + 1, 0.f);
-    for (std::vector<float> *values : { &zero, &spare })
+    for (AlignedArray<float> *values : { &zero, &spare })
       values->assign(l.stride(), 0.f);
     coarse_rhs.resize(coarsening.site.size() * n);
     coarse_x.resize(coarse_rhs.size());
@@ -146,7 +146,8 @@ namespace tribodraw
         float *below = odd_y && iy == 0 ? &last_row[l.row(n, 0, r)] : row(result, iy - 1, r);
         float *above = odd_y && iy == l.ny - 1 ? &first_row[l.row(n, 0, r)] : row(result, iy + 1, r);
         row_kernels::relax(l.nx, x, below, above, row(rhs, iy, r), coefficients(m.kx, iy), coefficients(m.ky, iy),
-                           coefficients(m.ky, iy + 1), coefficients(m.inverse, iy), colour(iy, c), &spare[1]);
+                           coefficients(m.ky, iy + 1), coefficients(m.inverse, iy), colour(iy, c),
+                           &spare[CellLayout::margin]);
         close_row(x, l);
       }
   }
@@ -157,8 +158,8 @@ namespace tribodraw
   {
     if (!odd_y)
       return;
-    std::copy_n(&result[l.row(n, 0, 0) - 1], first_row.size(), first_row.begin());
-    std::copy_n(&result[l.row(n, l.ny - 1, 0) - 1], last_row.size(), last_row.begin());
+    std::copy_n(&result[l.row(n, 0, 0) - CellLayout::margin], first_row.size(), first_row.begin());
+    std::copy_n(&result[l.row(n, l.ny - 1, 0) - CellLayout::margin], last_row.size(), last_row.begin());
   }
 
   // From zero the second colour gets residuals from its own colour across the border only.
@@ -231,13 +232,13 @@ namespace tribodraw
   {
     const float *kx = coefficients(m.kx, iy), *ky = coefficients(m.ky, iy), *above = coefficients(m.ky, iy + 1),
                 *weight = coefficients(coarsening.weight, iy);
-    float *d = work_row(iy, r), *w = &spare[1];
+    float *d = work_row(iy, r), *w = &spare[CellLayout::margin];
     row_kernels::from_neighbours(l.nx, d, row(result, iy, r), row(result, iy - 1, r), row(result, iy + 1, r), kx, ky,
                                  above, colour(iy, 0));
     add_border_residual(iy, r, d);
     if (!is_odd(iy))
-      row_kernels::add_from_column(l.nx, d, is_odd(iy - 1) ? work_row(iy - 1, r) : &zero[1],
-                                   is_odd(iy + 1) ? work_row(iy + 1, r) : &zero[1], ky, above);
+      row_kernels::add_from_column(l.nx, d, is_odd(iy - 1) ? work_row(iy - 1, r) : &zero[CellLayout::margin],
+                                   is_odd(iy + 1) ? work_row(iy + 1, r) : &zero[CellLayout::margin], ky, above);
     row_kernels::scale(l.nx, w, d, weight, parity[1].data());
     close_row(w, l);
     row_kernels::add_from_row(l.nx, d, w, kx);
@@ -269,7 +270,7 @@ namespace tribodraw
                                              coefficients(m.ky, iy + 1), weight);
         close_row(c, l);
         float *x = row(result, iy, r);
-        row_kernels::interpolate_in_row(l.nx, c, x, kx, weight, parity[1].data(), &spare[1]);
+        row_kernels::interpolate_in_row(l.nx, c, x, kx, weight, parity[1].data(), &spare[CellLayout::margin]);
         close_row(x, l);
       }
   }
@@ -311,15 +312,15 @@ namespace tribodraw
   CellMultigrid::Cycle::add_energy_below(const int iy)
   {
     for (int r = 0; r < n; ++r)
-      energy[r] += row_kernels::energy(l.nx, iy < l.ny ? row(result, iy, r) : &zero[1], row(result, iy - 1, r),
-                                       coefficients(m.ky, iy));
+      energy[r] += row_kernels::energy(l.nx, iy < l.ny ? row(result, iy, r) : &zero[CellLayout::margin],
+                                       row(result, iy - 1, r), coefficients(m.ky, iy));
   }
 
   void
   CellMultigrid::Cycle::run()
   {
     std::fill(stage.begin(), stage.end(), untouched);
-    for (std::vector<float> *values : { &first_row, &last_row })
+    for (AlignedArray<float> *values : { &first_row, &last_row })
       std::fill(values->begin(), values->end(), 0.f);
     for (int iy = 0; iy < l.ny; ++iy)
       restrict_row(iy);
@@ -361,17 +362,17 @@ namespace tribodraw
   // precision, and the lengths of the steps follow from the energy of the preconditioned residual in single precision:
   // this saves a pass through the arrays, which do not fit into the cache.
   unsigned
-  CellMultigrid::solve(const int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, 4> &goal,
-                       const unsigned max_iterations) const
+  CellMultigrid::solve(const int n, AlignedArray<double> &rhs, AlignedArray<double> &x,
+                       const std::array<double, 4> &goal, const unsigned max_iterations) const
   {
     const CellLayout &l = k.layout;
     Cycle             cycle(*this, n);
     std::copy(rhs.begin(), rhs.end(), cycle.rhs.begin());
-    std::vector<float>       direction(l.size(n), 0.f);
-    const std::vector<float> zero(l.stride(), 0.f);
-    const auto               direction_row = [&](const int iy, const int r) {
+    AlignedArray<float>       direction(l.size(n), 0.f);
+    const AlignedArray<float> zero(l.stride(), 0.f);
+    const auto                direction_row = [&](const int iy, const int r) {
       const int w = CellLayout::wrapped(iy, l.ny, l.periodic);
-      return w < 0 ? &zero[1] : &direction[l.row(n, w, r)];
+      return w < 0 ? &zero[CellLayout::margin] : &direction[l.row(n, w, r)];
     };
     std::array<double, 4> beta{}, length{}, product{};
     std::vector<char>     directed(l.ny);

@@ -86,7 +86,7 @@ namespace tribodraw
   }
 
   unsigned
-  CellSolver::solve(const int n, std::vector<double> &rhs, std::vector<double> &x,
+  CellSolver::solve(const int n, AlignedArray<double> &rhs, AlignedArray<double> &x,
                     const std::array<double, max_rhs> &goal)
   {
     if (multigrid)

@@ -24,7 +24,7 @@ namespace tribodraw
     std::vector<int> site, first_site;
     /// In the layout of the conductances: what a sum of conductance times value at the neighbours in question is
     /// multiplied with to interpolate; 0 in kept and closed pixels.
-    std::vector<float> weight;
+    AlignedArray<float> weight;
 
     GraphMatrix coarse_matrix() const;
 

@@ -1,8 +1,9 @@
 #ifndef tribodraw_flow_factors_cell_conductances_h
 #define tribodraw_flow_factors_cell_conductances_h
 
+#include <tribodraw/flow_factors/aligned_array.h>
+
 #include <cstddef>
-#include <vector>
 
 namespace tribodraw
 {
@@ -10,19 +11,22 @@ namespace tribodraw
   /// several right-hand sides lie side by side, so that they share the coefficients in the cache.
   struct CellLayout
   {
+    /// Values before each row: the first pixel stands at the beginning of a cache line.
+    static constexpr std::size_t margin = 16;
+
     int  nx = 0, ny = 0;
     bool periodic = false;
 
     std::size_t
     stride() const
     {
-      return (static_cast<std::size_t>(nx) + 2 + 15) / 16 * 16; // whole cache lines
+      return (margin + static_cast<std::size_t>(nx) + 1 + 15) / 16 * 16; // whole cache lines
     }
     /// First pixel of row @p iy of right-hand side @p r out of @p n.
     std::size_t
     row(const int n, const int iy, const int r) const
     {
-      return (static_cast<std::size_t>(iy) * n + r) * stride() + 1;
+      return (static_cast<std::size_t>(iy) * n + r) * stride() + margin;
     }
     std::size_t
     size(const int n) const
@@ -74,7 +78,7 @@ namespace tribodraw
     }
 
   private:
-    std::vector<double> x, y;
+    AlignedArray<double> x, y;
   };
 } // namespace tribodraw
 

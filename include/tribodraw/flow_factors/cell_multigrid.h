@@ -5,7 +5,6 @@
 
 #include <array>
 #include <memory>
-#include <vector>
 
 namespace tribodraw
 {
@@ -28,7 +27,7 @@ namespace tribodraw
     /// Add the solutions of @p n right-hand sides (1, 2 or 4) to @p x; @p rhs becomes the residual. Stops when the norm
     /// of each residual is at most its @p goal. Returns the number of iterations, max_iterations + 1 if they were not
     /// enough.
-    unsigned solve(int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, 4> &goal,
+    unsigned solve(int n, AlignedArray<double> &rhs, AlignedArray<double> &x, const std::array<double, 4> &goal,
                    unsigned max_iterations) const;
 
   private:
@@ -38,7 +37,7 @@ namespace tribodraw
     std::unique_ptr<CellCoarsening> coarsening;
     std::unique_ptr<GraphMultigrid> coarse;
     // Single precision copies, in the layout of the conductances: conductances and inverse of their sum
-    std::vector<float> kx, ky, inverse;
+    AlignedArray<float> kx, ky, inverse;
   };
 } // namespace tribodraw
 

@@ -39,7 +39,7 @@ namespace tribodraw
     /// must be 0 where nothing flows.
     /// @param rhs is overwritten. @param goal norms of the residual to reach (multigrid).
     /// @return iterations of conjugate gradients
-    unsigned solve(int n, std::vector<double> &rhs, std::vector<double> &x, const std::array<double, max_rhs> &goal);
+    unsigned solve(int n, AlignedArray<double> &rhs, AlignedArray<double> &x, const std::array<double, max_rhs> &goal);
 
   private:
     struct Factors;
