@@ -31,7 +31,12 @@ namespace tribodraw
         list.push_back(tables[t]);
       }
     for (unsigned f = 0; f < n_faces; ++f)
-      faces[f] = std::make_unique<LubricatedFace>(mesh.nodes, mesh.triangles, mesh.on_outer_edge, face_tables[f], lubricant.viscosity_law, lubricant.supplied_film(), settings);
+      {
+        std::vector<double> film;
+        for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+          film.push_back(lubricant.supplied_film());
+        faces[f] = std::make_unique<LubricatedFace>(mesh.nodes, mesh.triangles, mesh.on_outer_edge, face_tables[f], lubricant.viscosity_law, std::move(film), settings);
+      }
     hand_over(contact);
   }
 

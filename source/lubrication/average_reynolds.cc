@@ -94,6 +94,14 @@ namespace tribodraw
           if (n_films == 3 || n_free > 0)
             add_cell(c, local, value, rhs);
         }
+      if (std::any_of(nodes.begin(), nodes.end(), [](const NodeData &node) { return node.squeeze_slope > 0; }))
+        {
+          // As a lumped mass: exact in the sum, and the matrix keeps its sign structure.
+          const Eigen::VectorXd area = geometry.nodal_area();
+          for (std::size_t i = 0; i < n_nodes; ++i)
+            if (!nodes[i].fixed)
+              matrix.coeffRef(i, i) += area[i] * nodes[i].squeeze_slope;
+        }
       // A node without any film around it is fixed; the unit entry keeps the matrix regular.
       for (std::size_t i = 0; i < n_nodes; ++i)
         if (matrix.coeff(i, i) == 0.)

@@ -51,6 +51,8 @@ namespace tribodraw
     const std::vector<NodeData> *nodes = nullptr;
     double                       dt    = steady;
     Eigen::VectorXd              area, capacity; // of the gap at theta = 1 [mm^3]; of a carried node its area
+    Eigen::VectorXd              donor; // gap at theta = 1 / gap of the flow: transport at theta = 1 in parts of F
+    std::vector<unsigned>        segment; // of the gap curve of a full node
     std::vector<CellFlow>        flow;
     std::vector<State>           state;
     Eigen::VectorXd              p, theta, drain; // drain: transport out of a node at theta = 1
@@ -151,11 +153,12 @@ namespace tribodraw
               // The face between the dual cells of two nodes has the area-weighted normal A (grad N_j - grad N_i)/3.
               const unsigned i = e, j = (e + 1) % 3;
               double         q = (cell.material_gradient.col(j) - cell.material_gradient.col(i)).dot(terms.flux) / 3.;
-              const unsigned donor = q > 0 ? cell.node[i] : cell.node[j];
-              if (node(donor).kind == Kind::carried)
+              const unsigned from = q > 0 ? cell.node[i] : cell.node[j];
+              if (node(from).kind == Kind::carried)
                 q = 0; // what lies on the free sheet moves with it
+              q *= donor[from];
               flow[c].transport[e] = q;
-              drain[donor] += std::abs(q);
+              drain[from] += std::abs(q);
               transport += std::abs(q);
             }
         }
@@ -173,6 +176,37 @@ namespace tribodraw
     {
       return state[i] == State::full;
     }
+    unsigned
+    last_segment(const std::size_t i) const
+    {
+      return std::max(2u, node(i).closed.n) - 2;
+    }
+    /// d theta / d p in the present segment of the gap curve.
+    double
+    yielding(const std::size_t i) const
+    {
+      const GapCurve &curve = node(i).closed;
+      if (curve.n < 2)
+        return 0.;
+      const unsigned k = segment[i];
+      return (curve.gap[k + 1] - curve.gap[k]) / (curve.pressure[k + 1] - curve.pressure[k]) / curve.gap[0];
+    }
+    /// Film fraction of a full node at pressure p, in the present segment of the gap curve.
+    double
+    full_theta(const std::size_t i, const double pressure) const
+    {
+      const GapCurve &curve = node(i).closed;
+      if (curve.n < 2)
+        return 1.;
+      return curve.gap[segment[i]] / curve.gap[0] + yielding(i) * (pressure - curve.pressure[segment[i]]);
+    }
+    /// Film fraction from which on the node is lifted.
+    double
+    greatest_theta(const std::size_t i) const
+    {
+      const GapCurve &curve = node(i).closed;
+      return curve.n < 2 ? 1. : curve.gap[curve.n - 1] / curve.gap[0];
+    }
     bool
     is_unknown(const std::size_t i) const
     {
@@ -184,6 +218,7 @@ namespace tribodraw
     {
       p     = Eigen::VectorXd::Zero(size());
       theta = Eigen::VectorXd::Ones(size());
+      segment.assign(size(), 0);
       state.assign(size(), State::full);
       const bool warm = start != nullptr && start->pressure.size() == size();
       for (std::size_t i = 0; i < size(); ++i)
@@ -208,6 +243,8 @@ namespace tribodraw
               state[i] = start->pressure[i] > 0 && start->pressure[i] < node(i).p_limit ? State::full
                          : start->fill[i] > 1. || node(i).p_limit <= 0                  ? State::lifted
                                                                                         : State::starved;
+            if (warm && state[i] == State::full)
+              segment[i] = node(i).closed.segment(start->pressure[i]);
           }
     }
 
@@ -242,6 +279,13 @@ namespace tribodraw
       return state[i] == State::starved && !std::isfinite(dt) && drain[i] <= 1e-14 * flow_scale;
     }
 
+    /// d theta / d (unknown of the node); zero if theta is known.
+    double
+    theta_per_unknown(const std::size_t i, const std::vector<bool> &idle) const
+    {
+      return pressure_is_unknown(i) ? yielding(i) * pressure_scale : is_unknown(i) && !idle[i] ? 1. : 0.;
+    }
+
     bool
     solve_linear()
     {
@@ -253,7 +297,10 @@ namespace tribodraw
         {
           idle[i] = is_idle(i);
           if (pressure_is_unknown(i))
-            p[i] = 0;
+            {
+              p[i]     = 0;
+              theta[i] = full_theta(i, 0.);
+            }
           else if (is_unknown(i) && !idle[i])
             theta[i] = 0;
         }
@@ -268,11 +315,11 @@ namespace tribodraw
                   value[positions[c][3 * i + j]] += flow[c].conductance(i, j) * pressure_scale;
               const unsigned to    = (i + 1) % 3;
               const double   t     = flow[c].transport[i];
-              const unsigned donor = t > 0 ? i : to, receiver = t > 0 ? to : i;
-              if (is_unknown(n[donor]) && !pressure_is_unknown(n[donor]) && !idle[n[donor]])
+              const unsigned from = t > 0 ? i : to, receiver = t > 0 ? to : i;
+              if (const double change = theta_per_unknown(n[from], idle); change > 0)
                 {
-                  value[positions[c][3 * donor + donor]] += std::abs(t);
-                  value[positions[c][3 * receiver + donor]] -= std::abs(t);
+                  value[positions[c][3 * from + from]] += std::abs(t) * change;
+                  value[positions[c][3 * receiver + from]] -= std::abs(t) * change;
                 }
             }
         }
@@ -281,8 +328,7 @@ namespace tribodraw
           const std::size_t diagonal = matrix.position(i, i);
           if (is_unknown(i) && !idle[i])
             {
-              if (!pressure_is_unknown(i))
-                value[diagonal] += storage(i);
+              value[diagonal] += storage(i) * theta_per_unknown(static_cast<std::size_t>(i), idle);
               continue;
             }
           for (std::size_t k = matrix.row_start()[i]; k < matrix.row_start()[i + 1]; ++k)
@@ -295,7 +341,10 @@ namespace tribodraw
       solver.solve(rhs);
       for (std::size_t i = 0; i < size(); ++i)
         if (pressure_is_unknown(i))
-          p[i] = rhs[i] * pressure_scale;
+          {
+            p[i]     = rhs[i] * pressure_scale;
+            theta[i] = full_theta(i, p[i]);
+          }
         else if (is_unknown(i) && !idle[i])
           theta[i] = rhs[i];
       return rhs.allFinite();
@@ -322,11 +371,12 @@ namespace tribodraw
       switch (state[i])
         {
         case State::full:
-          return p[i] < -small_tolerance * p_max                                 ? State::starved
-                 : p[i] > n.p_limit * (1. + small_tolerance) && p[i] > n.p_limit ? State::lifted
-                                                                                 : State::full;
+          return segment[i] == 0 && p[i] < -small_tolerance * p_max                                          ? State::starved
+                 : segment[i] == last_segment(i) && p[i] > n.p_limit * (1. + small_tolerance) && p[i] > n.p_limit ? State::lifted
+                                                                                                             : State::full;
         case State::lifted:
-          return theta[i] < 1. - fill_tolerance ? (n.p_limit > 0 ? State::full : State::starved) : State::lifted;
+          return theta[i] < greatest_theta(i) - fill_tolerance ? (n.p_limit > 0 ? State::full : State::starved)
+                                                               : State::lifted;
         case State::overflow:
           return residual > small_tolerance * flow_scale ? State::starved : State::overflow; // residual = -outflow
         case State::starved:
@@ -341,18 +391,42 @@ namespace tribodraw
       return state[i];
     }
 
-    void
-    enter(const std::size_t i, const State next)
+    /// The segment of the gap curve in which a full node should be.
+    unsigned
+    wanted_segment(const std::size_t i, const double p_max) const
     {
-      state[i] = next;
-      if (next == State::starved)
+      const GapCurve &curve = node(i).closed;
+      if (state[i] != State::full || curve.n < 3)
+        return segment[i];
+      // One segment at a time: the curve rises, so the solution lies on that side.
+      const double margin = small_tolerance * p_max;
+      if (segment[i] > 0 && p[i] < curve.pressure[segment[i]] - margin)
+        return segment[i] - 1;
+      return segment[i] < last_segment(i) && p[i] > curve.pressure[segment[i] + 1] + margin ? segment[i] + 1 : segment[i];
+    }
+
+    struct Change
+    {
+      std::size_t node;
+      State       state;
+      unsigned    segment;
+    };
+
+    void
+    enter(const Change &change)
+    {
+      const std::size_t i = change.node;
+      if (change.state == State::full)
+        segment[i] = state[i] == State::lifted ? last_segment(i) : state[i] == State::full ? change.segment : 0;
+      state[i] = change.state;
+      if (change.state == State::starved)
         p[i] = 0;
-      else if (next == State::lifted)
+      else if (change.state == State::lifted)
         p[i] = node(i).p_limit;
-      else
+      else if (change.state == State::overflow)
         {
           theta[i] = 1;
-          p[i]     = 0; // overflow; the pressure of a full node is the next unknown
+          p[i]     = 0;
         }
     }
 
@@ -369,20 +443,24 @@ namespace tribodraw
         {
           if (!solve_linear())
             return 0;
-          const Eigen::VectorXd                      r     = balance();
-          const double                               p_max = p.cwiseAbs().maxCoeff();
-          std::vector<std::pair<std::size_t, State>> wrong;
+          const Eigen::VectorXd r     = balance();
+          const double          p_max = p.cwiseAbs().maxCoeff();
+          std::vector<Change>   wrong;
           for (std::size_t i = 0; i < size(); ++i)
-            if (const State next = wanted(i, r[i], p_max); next != state[i])
-              wrong.emplace_back(i, next);
+            {
+              const State    next      = wanted(i, r[i], p_max);
+              const unsigned next_line = wanted_segment(i, p_max);
+              if (next != state[i] || next_line != segment[i])
+                wrong.push_back({ i, next, next_line });
+            }
           if (wrong.empty())
             return iteration;
           stuck  = wrong.size() < fewest ? 0 : stuck + 1;
           fewest = std::min(fewest, wrong.size());
           if (stuck > patience)
             wrong.erase(wrong.begin() + 1, wrong.end());
-          for (const auto &[i, next] : wrong)
-            enter(i, next);
+          for (const Change &change : wrong)
+            enter(change);
         }
       return 0;
     }
@@ -416,6 +494,23 @@ namespace tribodraw
     }
   };
 
+  double
+  FilmTransport::GapCurve::at(const double p) const
+  {
+    const unsigned k      = segment(p);
+    const double   weight = std::clamp((p - pressure[k]) / (pressure[k + 1] - pressure[k]), 0., 1.);
+    return gap[k] + weight * (gap[k + 1] - gap[k]);
+  }
+
+  unsigned
+  FilmTransport::GapCurve::segment(const double p) const
+  {
+    unsigned k = 0;
+    while (k + 2 < n && p > pressure[k + 1])
+      ++k;
+    return k;
+  }
+
   FilmTransport::FilmTransport(const std::vector<Eigen::Vector3d>         &reference,
                                const std::vector<std::array<unsigned, 3>> &triangles, const double phi_p_floor)
       : data(std::make_unique<Implementation>(reference, triangles, phi_p_floor))
@@ -436,9 +531,14 @@ namespace tribodraw
     d.geometry.move_to(positions);
     d.area     = d.geometry.nodal_area();
     d.capacity = d.area;
+    d.donor    = Eigen::VectorXd::Ones(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (nodes[i].kind != Kind::carried)
-        d.capacity[i] *= nodes[i].film;
+      if (const NodeData &n = nodes[i]; n.kind != Kind::carried)
+        {
+          const double gap = n.closed.n > 1 ? n.closed.gap[0] : n.film;
+          d.capacity[i] *= gap;
+          d.donor[i] = gap / n.film;
+        }
     d.integrate();
     d.start_sets(start);
     const unsigned iterations = d.find_sets();

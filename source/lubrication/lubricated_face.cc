@@ -10,9 +10,6 @@ namespace tribodraw
 {
   namespace
   {
-    // A film iteration has converged when the pressure changes by less than this part of its maximum.
-    constexpr double film_tolerance = 1e-3;
-
     std::vector<double>
     lubricant_pressures(const std::vector<LubricatedFace::Node> &nodes)
     {
@@ -36,16 +33,17 @@ namespace tribodraw
   LubricatedFace::LubricatedFace(const std::vector<Eigen::Vector3d>         &reference,
                                  const std::vector<std::array<unsigned, 3>> &triangles, std::vector<bool> free_edge,
                                  std::vector<std::shared_ptr<const FrictionTable>> friction_tables,
-                                 std::shared_ptr<const ViscosityLaw> viscosity, const double supplied_film,
+                                 std::shared_ptr<const ViscosityLaw> viscosity, std::vector<double> supplied_film,
                                  const LubricationSettings &lubrication_settings)
       : edge(std::move(free_edge)), tables(std::move(friction_tables)), viscosity_law(std::move(viscosity)),
         settings(lubrication_settings), reynolds(reference, triangles, settings.phi_p_floor),
-        patch(reference.size(), triangles), supply(reference.size(), supplied_film), state(reference.size()),
+        patch(reference.size(), triangles), supply(std::move(supplied_film)), state(reference.size()),
         slid(reference.size(), Eigen::Vector3d::Zero()), touched(reference.size(), 0.)
   {
-    if (tables.empty() || !viscosity_law || edge.size() != reference.size())
+    if (tables.empty() || !viscosity_law || edge.size() != reference.size()
+        || supply.size() != reference.size())
       throw InputError(describe_error(
-          "A lubricated face needs friction tables, a viscosity law and a mark for each node", "set-up of the film"));
+          "A lubricated face needs friction tables, a viscosity law, and an edge mark and a film for each node", "set-up of the film"));
     patch.move_to(reference);
     reference_area = patch.nodal_area();
     double top     = -1e300;
@@ -59,6 +57,12 @@ namespace tribodraw
         state[i].friction_coefficient = fresh_friction(state[i]);
       }
     figures.supplied_volume = figures.volume = patch.integral(supply);
+    if (settings.supply == LubricationSettings::Supply::film_transport)
+      {
+        transport = std::make_unique<FilmTransport>(reference, triangles, settings.phi_p_floor);
+        for (std::size_t i = 0; i < supply.size(); ++i)
+          volume.push_back(supply[i] * reference_area[i]);
+      }
   }
 
   bool
@@ -69,42 +73,27 @@ namespace tribodraw
     check(positions, contacts);
     if (!accumulate(contacts, increment))
       return false;
-    const bool moving = !increment.at_rest && elapsed > 0;
-
+    const double dt = increment.at_rest ? increment.dt : elapsed;
     patch.move_to(positions);
-    std::vector<double> nominal;
-    for (const auto &c : contacts)
-      nominal.push_back(std::max(0., c.nominal_pressure));
-    nominal = patch.smooth(nominal);
-
     std::vector<Node>            nodes = state;
     std::vector<Eigen::Vector3d> slip(nodes.size(), Eigen::Vector3d::Zero());
-    std::vector<double>          lubricant(nodes.size(), 0.);
-    const std::vector<int>       table_of = touched_tables(contacts);
-    if (moving)
-      {
-        slip      = mean_slip_velocity();
-        lubricant = lubricant_pressures(state);
-      }
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      {
-        Node &node         = nodes[i];
-        node.supplied_film = supply[i] * reference_area[i] / patch.nodal_area()[i];
-        node.eps_p         = contacts[i].eps_p;
-        if (table_of[i] >= 0)
-          node.table = table_of[i];
-        const bool touches    = table_of[i] >= 0 && nominal[i] >= settings.contact_threshold;
-        node.nominal_pressure = touches ? nominal[i] : 0.;
-        node.regime           = touches ? Regime::mixed : Regime::no_contact;
-      }
-    iterate_film(positions, nodes, contacts, slip, lubricant, moving);
+    if (!increment.at_rest)
+      slip = mean_slip_velocity();
+    prepare_nodes(nodes, contacts);
+    if (transport)
+      transport_film(positions, nodes, contacts, slip, dt);
+    else
+      iterate_film(positions, nodes, contacts, slip,
+                   increment.at_rest ? std::vector<double>(nodes.size(), 0.) : lubricant_pressures(state),
+                   increment.at_rest ? 0. : dt);
     find_friction(positions, nodes, slip);
 
     earlier_pressure[1] = std::move(earlier_pressure[0]);
     earlier_pressure[0] = lubricant_pressures(state);
     state               = std::move(nodes);
     ++n_updates;
-    find_statistics(elapsed);
+    figures.n_unsettled += !figures.converged;
+    find_statistics(dt);
     forget_motion();
     return true;
   }
@@ -127,93 +116,38 @@ namespace tribodraw
   }
 
   void
-  LubricatedFace::iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                               const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                               std::vector<double> lubricant, const bool moving)
+  LubricatedFace::prepare_nodes(std::vector<Node> &nodes, const std::vector<Contact> &contacts) const
   {
-    figures.active_set_iterations = figures.film_iterations = 0;
-    figures.film_change                                     = 0;
-    figures.converged                                       = true;
-    for (unsigned iteration = 1; iteration <= settings.film_iterations; ++iteration)
-      {
-        flatten(nodes, contacts, lubricant);
-        if (!moving)
-          return;
-        const auto result       = solve_film(positions, nodes, slip_velocity, lubricant);
-        figures.film_iterations = iteration;
-        figures.active_set_iterations += result.iterations;
-        figures.converged = figures.converged && result.converged;
-        double change = 0, largest = 0;
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-          {
-            Node &node = nodes[i];
-            // A node without pressure (open, starved) is not relaxed: it has none.
-            const bool   carries    = node.regime == Regime::mixed && !edge[i];
-            const double p          = carries
-                                          ? std::min(node.nominal_pressure, (1. - settings.film_relaxation) * lubricant[i]
-                                                                                + settings.film_relaxation * result.pressure[i])
-                                          : 0.;
-            change                  = std::max(change, std::abs(p - lubricant[i]));
-            largest                 = std::max(largest, p);
-            lubricant[i]            = p;
-            node.lubricant_pressure = p;
-            node.solid_pressure     = node.nominal_pressure - p;
-            node.opening_rate       = result.opening_rate[i];
-          }
-        figures.film_change = largest > 0 ? change / largest : 0.;
-        if (figures.film_change < film_tolerance)
-          break;
-      }
-    for (auto &node : nodes)
-      if (node.regime == Regime::mixed && node.lubricant_pressure >= (1. - 1e-12) * node.nominal_pressure)
-        node.regime = Regime::full;
-  }
-
-  void
-  LubricatedFace::flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
-                          const std::vector<double> &lubricant) const
-  {
+    std::vector<double> nominal;
+    for (const auto &c : contacts)
+      nominal.push_back(std::max(0., c.nominal_pressure));
+    for (unsigned pass = 0; pass < settings.smoothing; ++pass)
+      nominal = patch.smooth(nominal);
+    const std::vector<int> table_of = touched_tables(contacts);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       {
-        Node       &node = nodes[i];
-        const Node &old  = state[i];
-        node.cut_height  = old.cut_height;
-        // A node that has just come into contact is first pressed by its full load, else it would be judged on its
-        // undeformed valleys and starve.
-        const double before = old.in_contact() ? lubricant[i] : 0.;
-        if (node.in_contact())
-          node.cut_height = table(node.table)
-                                .advance(old.cut_height, std::max(0., node.nominal_pressure - before), old.eps_p,
-                                         contacts[i].eps_p);
-        set_film(node, table(node.table));
-        node.lubricant_pressure = node.opening_rate = 0;
-        node.solid_pressure                         = node.nominal_pressure;
-        if (node.in_contact())
-          node.regime = node.supplied_film < node.film_thickness ? Regime::boundary : Regime::mixed;
+        Node &node         = nodes[i];
+        node.supplied_film = transport           ? volume[i] / patch.nodal_area()[i]
+                             : settings.thinning ? supply[i] * reference_area[i] / patch.nodal_area()[i]
+                                                 : supply[i];
+        node.eps_p         = contacts[i].eps_p;
+        if (table_of[i] >= 0)
+          node.table = table_of[i];
+        const bool touches    = table_of[i] >= 0 && nominal[i] >= settings.contact_threshold;
+        node.nominal_pressure = touches ? nominal[i] : 0.;
+        node.regime           = touches ? Regime::mixed : Regime::no_contact;
       }
   }
 
-  AverageReynolds::Result
-  LubricatedFace::solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
-                             const std::vector<Eigen::Vector3d> &slip_velocity,
-                             const std::vector<double>          &lubricant) const
+  double
+  LubricatedFace::advanced_cut_height(const Node &old, const Node &node, const Contact &contact,
+                                      const double lubricant) const
   {
-    std::vector<AverageReynolds::NodeData> data(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      {
-        const Node &node = nodes[i];
-        auto       &d    = data[i];
-        d.fixed          = node.regime != Regime::mixed || edge[i];
-        d.film           = node.film_thickness;
-        d.viscosity      = viscosity(node, slip_velocity[i], lubricant[i]);
-        d.phi_p          = node.phi_p;
-        d.sq_phi_s       = table(node.table).sq * node.phi_s;
-        d.sheet_velocity = slip_velocity[i]; // in the frame of the tool
-        d.p_limit        = node.nominal_pressure;
-      }
-    return reynolds.solve(positions, data, lubricant);
+    const FrictionTable &t       = table(node.table);
+    const double         p_solid = std::max(0., node.nominal_pressure - lubricant);
+    return settings.memory ? t.advance(old.cut_height, p_solid, old.eps_p, contact.eps_p)
+                           : t.advance(t.initial_cut_height, p_solid, 0., contact.eps_p);
   }
-
   double
   LubricatedFace::viscosity(const Node &node, const Eigen::Vector3d &slip_velocity, const double pressure) const
   {
@@ -281,12 +215,14 @@ namespace tribodraw
     double      nominal = 0, lubricant = 0, starved = 0, capped = 0, shear = 0, change = 0;
     figures.contact_area = figures.volume = figures.max_lubricant_pressure = figures.nominal_pressure_there = 0;
     figures.max_node                                                                                        = -1;
+    if (transport)
+      figures.opening_volume = 0;
     figures.min_film = figures.max_film = 0;
     for (std::size_t i = 0; i < state.size(); ++i)
       {
         const Node &node = state[i];
         figures.volume += area[i] * node.supplied_film;
-        figures.opening_volume += area[i] * node.opening_rate * time;
+        figures.opening_volume += area[i] * (transport ? node.lift : node.opening_rate * time);
         if (n_updates > 2)
           change += area[i] * std::abs(node.lubricant_pressure - 2. * earlier_pressure[0][i] + earlier_pressure[1][i]);
         if (!node.in_contact())
@@ -313,7 +249,7 @@ namespace tribodraw
     figures.capped_area_fraction  = ratio(capped, figures.contact_area);
     figures.mean_friction         = ratio(shear, nominal);
     figures.oscillation           = ratio(change, lubricant);
-    figures.volume_error          = ratio(figures.volume - figures.supplied_volume, figures.supplied_volume);
+    figures.volume_error          = ratio(figures.volume + figures.left_volume - figures.supplied_volume, figures.supplied_volume);
   }
 
   std::string

@@ -12,7 +12,7 @@ namespace tribodraw
     {
       for (auto *x : { &node.cut_height, &node.eps_p, &node.nominal_pressure, &node.solid_pressure,
                        &node.lubricant_pressure, &node.friction_coefficient, &node.film_thickness, &node.supplied_film,
-                       &node.contact_fraction, &node.opening_rate })
+                       &node.contact_fraction, &node.opening_rate, &node.lift })
         apply(*x);
       for (int i = 0; i < 4; ++i)
         {
@@ -28,12 +28,12 @@ namespace tribodraw
       for (auto *x :
            { &f.contact_area, &f.load_share, &f.starved_area_fraction, &f.capped_area_fraction,
              &f.max_lubricant_pressure, &f.nominal_pressure_there, &f.mean_friction, &f.min_film, &f.max_film,
-             &f.opening_volume, &f.oscillation, &f.supplied_volume, &f.volume, &f.volume_error, &f.film_change })
+             &f.opening_volume, &f.oscillation, &f.supplied_volume, &f.volume, &f.left_volume, &f.volume_error, &f.film_change })
         apply(*x);
     }
 
-    constexpr std::size_t numbers_per_node = 18 + 2;
-    constexpr std::size_t n_figures        = 15 + 8;
+    constexpr std::size_t numbers_per_node = 19 + 2;
+    constexpr std::size_t n_figures        = 16 + 9;
   } // namespace
 
   void
@@ -51,11 +51,13 @@ namespace tribodraw
     numbers_of_figures(figures, [&](const double x) { figure.push_back(x); });
     figure.insert(figure.end(), { double(figures.max_node), double(figures.n_clamped_friction),
                                   double(figures.active_set_iterations), double(figures.film_iterations),
-                                  double(figures.converged), elapsed, travelled, double(n_updates) });
+                                  double(figures.converged), double(figures.n_unsettled), elapsed, travelled, double(n_updates) });
     archive.put(name + "/nodes", std::move(nodes));
     archive.put(name + "/motion", std::move(motion));
     archive.put(name + "/figures", std::move(figure));
     archive.put(name + "/supply", supply);
+    if (transport)
+      archive.put(name + "/volume", volume);
     archive.put(name + "/touched", touched);
     for (int k = 0; k < 2; ++k)
       archive.put(name + "/earlier pressure " + std::to_string(k + 1),
@@ -83,11 +85,14 @@ namespace tribodraw
     figures.active_set_iterations = static_cast<unsigned>(*figure++);
     figures.film_iterations       = static_cast<unsigned>(*figure++);
     figures.converged             = *figure++ != 0;
+    figures.n_unsettled           = static_cast<unsigned>(*figure++);
     elapsed                       = *figure++;
     travelled                     = *figure++;
     n_updates                     = static_cast<unsigned>(*figure++);
     touched                       = archive.numbers(name + "/touched", n);
     supply                        = archive.numbers(name + "/supply", n);
+    if (transport)
+      volume = archive.numbers(name + "/volume", n);
     for (int k = 0; k < 2; ++k)
       earlier_pressure[k] = archive.numbers(name + "/earlier pressure " + std::to_string(k + 1), n);
   }

@@ -27,22 +27,57 @@ namespace tribodraw
     LubricationSettings s;
     {
       const auto scope = parameters.section("Lubricant");
-      parameters.choice(
-          "Supply", { "paper rule" },
-          "What decides whether there is enough lubricant. `paper rule`: the lubricant stays where it is on "
-          "the sheet, and where it does not fill the valleys (h_inp A0/A < h_avg) there is boundary "
-          "friction without lubricant pressure.",
-          Default{ "paper rule", "the rule of Shisode et al. (2021)" });
-      s.supply = Supply::paper_rule;
+      s.supply
+          = parameters.choice(
+                "Supply", { "film transport", "paper rule" },
+                "What decides whether there is enough lubricant. `film transport`: lubricant is conserved; it moves with "
+                "the sheet, is dragged along by the tool, flows under pressure, and opens the gap where it carries all "
+                "load. `paper rule`: it stays where it is on the sheet, and where it does not fill the valleys "
+                "(h_inp A0/A < h_avg) there is boundary friction without lubricant pressure.",
+                Default{ "film transport", "conserves the lubricant; the rule of Shisode et al. (2021) does not" })
+                    == "paper rule"
+                ? Supply::paper_rule
+                : Supply::film_transport;
+      const bool needed = s.supply == Supply::paper_rule || parameters.documentation_mode();
+      if (needed)
+        s.thinning
+            = parameters.choice("Thinning", { "yes", "no" },
+                                "`Supply = paper rule` only: whether the film h_inp is divided by the area ratio A/A0 of "
+                                "the sheet.",
+                                Default{ "yes", "the lubricant of a stretched sheet covers more area" })
+              == "yes";
+      else
+        parameters.mark_unselected("Thinning");
     }
     const auto scope = parameters.section("Coupling");
     s.read_micro_settings(parameters);
+    const bool paper = s.supply == Supply::paper_rule;
+    if (paper || parameters.documentation_mode())
+      s.squeeze = parameters.choice("Squeeze term", { "neglected", "kept" },
+                                    "`Supply = paper rule` only: the rate dh_avg/dt at a fixed point of the tool in the "
+                                    "average Reynolds equation, taken at the end of the increment (implicit). Film "
+                                    "transport always contains it, as it conserves the lubricant.",
+                                    Default{ "neglected", "as in the paper" })
+                  == "kept";
+    else
+      parameters.mark_unselected("Squeeze term");
+    s.squeeze = s.squeeze || !paper;
+    s.memory  = parameters.choice("Asperities", { "stay flattened", "follow the table" },
+                                  "`stay flattened`: the cut height of a point of the sheet never rises. `follow the "
+                                   "table`: it is looked up for the present solid pressure and strain, as in the paper, so "
+                                   "that unloaded asperities stand up again.",
+                                  Default{ "stay flattened", "flattening is plastic" })
+               == "stay flattened";
+    s.smoothing = static_cast<unsigned>(parameters.integer(
+        "Smoothing passes", Range::between(0, 10),
+        "Area-weighted smoothing passes over the nominal pressure, which then bounds the lubricant pressure.",
+        Default{ "1", "nodal contact pressures alternate from node to node; a second pass changes nothing more" }));
     s.film_iterations = static_cast<unsigned>(parameters.integer(
-        "Film iterations", Range::between(1, 50),
-        "Film solutions in an increment at most (flattening and pressure in turn).",
-        Default{
-            "1",
-            "with asperities that never rise again, iterating changed the drawing force by less than its scatter" }));
+        "Film iterations", Range::between(1, 100),
+        "Film solutions in an increment at most (flattening and pressure in turn); 1: staggered.",
+        Default{ paper ? "1" : "30", paper ? "staggered as in the paper; with asperities that stay flattened, iterating "
+                                             "changed the drawing force by less than its scatter"
+                                           : "the iteration ends when the pressure changes by less than 0.1 %" }));
     s.film_relaxation = parameters.quantity(
         "Film relaxation", "", Range{ 0.05, 1. },
         "Part of the new lubricant pressure that is taken over in a film solution.",

@@ -37,6 +37,7 @@ namespace tribodraw
       /// W [mm/s]: the flow is taken relative to a mesh that moves so; zero in the frame in which the gap is steady.
       Eigen::Vector3d mesh_velocity = Eigen::Vector3d::Zero();
       double          squeeze        = 0;                       ///< d h_avg / d t at fixed tool point [mm/s]
+      double          squeeze_slope  = 0; ///< d squeeze / d pressure >= 0, `squeeze` being that at p = 0 [mm/s/MPa]
       double          p_limit        = 1e300;                   ///< largest pressure the contact can carry [MPa]
     };
     struct Result

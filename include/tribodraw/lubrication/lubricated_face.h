@@ -3,7 +3,7 @@
 
 #include <tribodraw/fluid/viscosity_law.h>
 #include <tribodraw/friction_table/friction_table.h>
-#include <tribodraw/lubrication/average_reynolds.h>
+#include <tribodraw/lubrication/film_transport.h>
 #include <tribodraw/lubrication/lubrication_settings.h>
 #include <tribodraw/lubrication/surface_patch.h>
 
@@ -21,13 +21,18 @@ namespace tribodraw
   /// One face of the blank (the die side or the punch side): asperities, film and friction of every node.
   ///
   /// Once per increment, as the paper's Fig. 8 and with its inconsistencies resolved: nominal pressure -> cut height s
-  /// of the asperities (a state that never rises) -> enough lubricant? -> average Reynolds equation with 0 <= P_lub <=
-  /// P_nom -> shear stress -> friction coefficient for the next increment. Flattening sees P_nom minus the lubricant
-  /// pressure of the previous update; all else the new one.
+  /// of the asperities (a state that never rises) -> lubricant pressure, 0 <= P_lub <= P_nom -> shear stress ->
+  /// friction coefficient for the next increment.
   ///
-  /// Lubricant (paper rule): every material point keeps what it was given. The film it can supply is
-  /// h_inp A0/A, A0 and A the area around the node on the undeformed and on the current middle surface (a third of the
-  /// triangles), so the volume sum(h A) is conserved; compression that thickens the sheet thickens the film.
+  /// Film transport: every node carries a volume of lubricant. Where a tool touches, FilmTransport finds how it moves
+  /// and which pressure it takes: the gap h_avg(s) depends on P_lub through the solid pressure P_nom - P_lub that
+  /// flattens, and is found together with it; where P_lub reaches P_nom the tool is lifted off the asperities. Where no
+  /// tool touches the lubricant stays on the sheet. What reaches the outer edge of the blank beyond a full gap is lost.
+  ///
+  /// Paper rule: every material point keeps what it was given. The film it can supply is h_inp A0/A, A0 and A the area
+  /// around the node on the undeformed and on the current middle surface (a third of the triangles), so the volume
+  /// sum(h A) is conserved; compression that thickens the sheet thickens the film. Flattening sees P_nom minus the
+  /// lubricant pressure of the previous film solution; all else the new one.
   ///
   /// Velocities are taken relative to the tool each node touches: the squeeze term may be neglected in that frame only.
   class LubricatedFace
@@ -36,9 +41,9 @@ namespace tribodraw
     enum class Regime
     {
       no_contact = 0,
-      boundary   = 1, ///< starved: h_inp A0/A < h_avg, all load on the asperities
+      boundary   = 1, ///< starved: the lubricant does not fill the valleys, all load on the asperities
       mixed      = 2,
-      full       = 3 ///< P_lub has reached P_nom; the gap would open (see opening_rate)
+      full       = 3 ///< P_lub has reached P_nom: film transport opens the gap, the paper rule would (see opening_rate)
     };
 
     /// What the face needs to know of a node for one increment. Velocities are read where the node touches a tool; a
@@ -71,10 +76,11 @@ namespace tribodraw
 
       double          nominal_pressure = 0, solid_pressure = 0, lubricant_pressure = 0; ///< [MPa], nominal smoothed
       double          friction_coefficient = 0;
-      double          film_thickness       = 0; ///< h_avg [mm]
-      double          supplied_film        = 0; ///< h_inp A0/A [mm]
+      double          film_thickness       = 0; ///< h_avg, of a lifted gap as it is [mm]
+      double          supplied_film        = 0; ///< lubricant of the node spread over its area [mm]; h_inp A0/A
       double          contact_fraction     = 0;
-      double          opening_rate         = 0; ///< where P_lub = P_nom [mm/s]
+      double          opening_rate         = 0; ///< paper rule: where P_lub = P_nom [mm/s]
+      double          lift                 = 0; ///< film transport: h_avg minus that of touching surfaces [mm]
       Eigen::Matrix2d phi_p = Eigen::Matrix2d::Identity(), phi_s = Eigen::Matrix2d::Zero();
 
       bool
@@ -95,23 +101,25 @@ namespace tribodraw
       double   nominal_pressure_there = 0;  ///< [MPa]
       double   mean_friction          = 0;  ///< load-weighted
       double   min_film = 0, max_film = 0;  ///< h_avg over the contact [mm]
-      double   opening_volume  = 0; ///< taken up by opening gaps since the start [mm^3]: lift that the bound hides
+      double   opening_volume  = 0; ///< of lifted gaps [mm^3]; paper rule: since the start, lift that the bound hides
       double   oscillation     = 0; ///< int |P_lub(n) - 2 P_lub(n-1) + P_lub(n-2)| / int P_lub; 4: flip-flop
       double   supplied_volume = 0, volume = 0; ///< lubricant at the start and now [mm^3]
-      double   volume_error          = 0;       ///< relative
+      double   left_volume           = 0;       ///< over the outer edge of the blank since the start [mm^3]
+      double   volume_error          = 0;       ///< (volume + left_volume - supplied_volume)/supplied_volume
       unsigned n_clamped_friction    = 0;       ///< nodes at the limits of the friction coefficient
       unsigned active_set_iterations = 0, film_iterations = 0;
       double   film_change = 0;    ///< of P_lub in the last film iteration, relative to its maximum
       bool     converged   = true; ///< false: the active set gave up
+      unsigned n_unsettled = 0;    ///< updates so far in which film iteration or active set did not settle
     };
 
     /// @param reference positions in the undeformed blank (in the plane z = constant, x is the rolling direction)
     /// @param free_edge nodes on the outer edge of the blank: lubricant pressure zero. Symmetry planes are not marked.
     /// @param tables one for each tool zone that can touch this face; Contact::table counts in this list
-    /// @param supplied_film h_inp of the undeformed face [mm]
+    /// @param supplied_film h_inp of the undeformed face, one value a node [mm]
     LubricatedFace(const std::vector<Eigen::Vector3d> &reference, const std::vector<std::array<unsigned, 3>> &triangles,
                    std::vector<bool> free_edge, std::vector<std::shared_ptr<const FrictionTable>> tables,
-                   std::shared_ptr<const ViscosityLaw> viscosity_law, double supplied_film,
+                   std::shared_ptr<const ViscosityLaw> viscosity_law, std::vector<double> supplied_film,
                    const LubricationSettings &settings);
 
     /// To be called once after each converged increment, however small. Motion is accumulated over increments until the
@@ -144,10 +152,12 @@ namespace tribodraw
     std::shared_ptr<const ViscosityLaw>               viscosity_law;
     LubricationSettings                               settings;
     AverageReynolds                                   reynolds;
+    std::unique_ptr<FilmTransport>                    transport; ///< paper rule: none
     SurfacePatch                                      patch;
 
     std::vector<double> supply;         ///< h_inp per node on the undeformed face [mm]
     std::vector<double> reference_area; ///< per node
+    std::vector<double> volume;         ///< film transport: lubricant per node [mm^3]
     std::vector<Node>   state;
     Statistics          figures;
 
@@ -169,14 +179,26 @@ namespace tribodraw
     std::vector<Eigen::Vector3d> mean_slip_velocity() const;
     std::vector<int>             touched_tables(const std::vector<Contact> &contacts) const;
     bool                         accumulate(const std::vector<Contact> &contacts, const Increment &increment);
-    void                         iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                                              const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                                              std::vector<double> lubricant, bool moving);
-    void                         flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
-                                         const std::vector<double> &lubricant) const;
+    void prepare_nodes(std::vector<Node> &nodes, const std::vector<Contact> &contacts) const;
+    double advanced_cut_height(const Node &old, const Node &node, const Contact &contact, double lubricant) const;
+    void   iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                        const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
+                        std::vector<double> lubricant, double dt);
+    void   transport_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
+                          const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
+                          double dt);
+    FilmTransport::GapCurve gap_curve(std::size_t i, const Node &node, const Contact &contact) const;
+    void set_transported_film(std::size_t i, Node &node, const FilmTransport::NodeData &data, const Contact &contact,
+                              const FilmTransport::Result *result) const;
+    void   flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
+                   const std::vector<double> &lubricant) const;
     AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
+                                       const std::vector<Contact>         &contacts,
                                        const std::vector<Eigen::Vector3d> &slip_velocity,
-                                       const std::vector<double>          &lubricant) const;
+                                       const std::vector<double> &lubricant, double dt) const;
+    void add_squeeze(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
+                     const std::vector<Contact> &contacts, const std::vector<double> &lubricant, double dt,
+                     std::vector<AverageReynolds::NodeData> &data) const;
     void                    find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
                                           const std::vector<Eigen::Vector3d> &slip_velocity);
     void                    find_statistics(double time);

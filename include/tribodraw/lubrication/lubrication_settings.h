@@ -19,13 +19,18 @@ namespace tribodraw
     /// What decides whether there is enough lubricant.
     enum class Supply
     {
-      paper_rule ///< h_inp A0/A < h_avg: boundary friction, no lubricant pressure
+      paper_rule,    ///< h_inp A0/A < h_avg: boundary friction, no lubricant pressure
+      film_transport ///< lubricant is a state: carried, pushed and conserved (FilmTransport)
     };
 
     BoundaryLayerPressure boundary_layer_pressure = BoundaryLayerPressure::solid_plus_lubricant;
     Supply                supply                  = Supply::paper_rule;
-    unsigned              film_iterations         = 1;    ///< film solutions per increment at most
-    double                film_relaxation         = 1;    ///< part of the new lubricant pressure taken over
+    bool                  squeeze         = false;   ///< the gap closes on the lubricant; always with film transport
+    bool                  memory          = true;    ///< the cut height never rises
+    bool                  thinning        = true;    ///< the supplied film of the paper's rule is h_inp A0/A, else h_inp
+    unsigned              smoothing       = 1;       ///< passes over the nominal pressure
+    unsigned              film_iterations = 1;       ///< film solutions per increment at most
+    double                film_relaxation = 1;       ///< part of the new lubricant pressure taken over
     double                contact_threshold       = 0.05; ///< smallest nominal pressure that counts as contact [MPa]
     double                fresh_contact_pressure  = 3;   ///< for the coefficient of nodes that are not in contact [MPa]
     double                smallest_travel         = 0.2; ///< punch travel between film solutions [mm]

@@ -34,6 +34,11 @@ namespace tribodraw
     /// Integral of nodal values.
     double integral(const std::vector<double> &values) const;
 
+    const std::vector<std::array<unsigned, 3>> &
+    triangles() const
+    {
+      return cells;
+    }
     /// Nodes joined to each node by an edge.
     const std::vector<std::vector<unsigned>> &
     neighbours() const

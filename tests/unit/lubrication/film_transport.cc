@@ -2,6 +2,7 @@
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/lubrication/film_transport.h>
+#include <tribodraw/lubrication/surface_patch.h>
 
 #include <gtest/gtest.h>
 
@@ -263,6 +264,60 @@ TEST(FilmTransport, volume_is_conserved_in_all_states)
   EXPECT_GT(n_starved, 100u);
   EXPECT_GT(n_full, 100u);
   EXPECT_GT(n_lifted, 100u);
+}
+
+// A sealed film at rest: the volume decides. On the curve the pressure is where g(p) is the film; below g(0) there is
+// none; beyond g(p_limit) the gap opens. The curve is steep, flat and steep again (hardened asperities and a strain).
+TEST(FilmTransport, sealed_film_takes_the_pressure_of_its_gap)
+{
+  const FilmMesh    mesh(6, 5, 3., 2., 0.15);
+  std::vector<Data> nodes(mesh.nodes.size());
+  SurfacePatch      patch(nodes.size(), mesh.triangles);
+  patch.move_to(mesh.nodes);
+  FilmTransport::GapCurve curve;
+  curve.n        = 5;
+  curve.pressure = { 0, 2, 5, 9, 10 };
+  curve.gap      = { 1e-3, 1.4e-3, 1.401e-3, 1.402e-3, 1.7e-3 };
+  EXPECT_DOUBLE_EQ(curve.at(1), 1.2e-3);
+  EXPECT_DOUBLE_EQ(curve.at(10), 1.7e-3);
+  for (auto &d : nodes)
+    {
+      d.film      = 1.3e-3;
+      d.viscosity = 3e-8;
+      d.p_limit   = 10;
+      d.closed    = curve;
+    }
+  const FilmTransport film(mesh.nodes, mesh.triangles);
+  const auto          solve = [&](const auto &wanted_film) {
+    for (unsigned i = 0; i < nodes.size(); ++i)
+      nodes[i].old_volume = wanted_film(i) * patch.nodal_area()[i];
+    const auto result = film.solve(mesh.nodes, nodes, 0.01);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(result.volume_error, 1e-13);
+    return result;
+  };
+  for (const double p : { 0.5, 1.9, 3., 6.6, 9.7 })
+    for (const double found : solve([&](unsigned) { return curve.at(p); }).pressure)
+      EXPECT_NEAR(found, p, 1e-6);
+  const auto lifted = solve([](unsigned) { return 1.9e-3; });
+  const auto empty  = solve([](unsigned) { return 0.7e-3; });
+  for (unsigned i = 0; i < nodes.size(); ++i)
+    {
+      EXPECT_DOUBLE_EQ(lifted.pressure[i], 10.);
+      EXPECT_NEAR(lifted.fill[i], 1.9, 1e-12);
+      EXPECT_EQ(empty.pressure[i], 0.);
+      EXPECT_NEAR(empty.fill[i], 0.7, 1e-12);
+    }
+  // Uneven amounts: pressure flow evens them out, and everywhere film and pressure lie on the curve.
+  const auto uneven = solve([](const unsigned i) { return 1e-3 * (1.2 + 0.5 * std::sin(3. * i)); });
+  for (unsigned i = 0; i < nodes.size(); ++i)
+    {
+      const double w = uneven.fill[i] * curve.gap[0], p = uneven.pressure[i];
+      if (p > 0 && p < 10)
+        EXPECT_NEAR(w, curve.at(p), 1e-12);
+      else
+        EXPECT_TRUE(p == 0 ? w <= 1e-3 * (1 + 1e-12) : w >= 1.7e-3 * (1 - 1e-12)) << w;
+    }
 }
 
 TEST(FilmTransport, wrong_input_is_named)

@@ -45,7 +45,7 @@ namespace
     face(const double supplied_film) const
     {
       return LubricatedFace(mesh.nodes, mesh.triangles, std::vector<bool>(mesh.nodes.size(), false), { table },
-                            std::make_shared<ConstantOil>(), supplied_film, settings);
+                            std::make_shared<ConstantOil>(), std::vector<double>(mesh.nodes.size(), supplied_film), settings);
     }
     /// Pressure that rises along the sliding: the film narrows, a wedge.
     void
@@ -288,7 +288,7 @@ TEST(LubricatedFace, ViscousShearAddsAlongTheSliding)
   };
   Strip          strip;
   LubricatedFace face(strip.mesh.nodes, strip.mesh.triangles, std::vector<bool>(strip.mesh.nodes.size(), true),
-                      { strip.table }, std::make_shared<Thick>(), 2.23e-3, strip.settings);
+                      { strip.table }, std::make_shared<Thick>(), std::vector<double>(strip.mesh.nodes.size(), 2.23e-3), strip.settings);
   strip.settings.max_friction = 1;
   for (auto &c : strip.contacts)
     c.sheet_velocity = { 6, 8, 0 };
@@ -406,7 +406,7 @@ TEST(LubricatedFace, OpenNodesAndEdges)
         strip.contacts[n].table = -1;
     }
   LubricatedFace face(strip.mesh.nodes, strip.mesh.triangles, edge, { strip.table }, std::make_shared<ConstantOil>(),
-                      2.23e-3, strip.settings);
+                      std::vector<double>(strip.mesh.nodes.size(), 2.23e-3), strip.settings);
   // Before the first update: boundary friction of a fresh contact at 3 MPa.
   const double s     = strip.table->advance(2.5e-3, 3, 0, 0);
   const double alpha = strip.table->film(s).contact_fraction;
@@ -479,7 +479,7 @@ TEST(LubricatedFace, TablesOfSeveralTools)
   for (unsigned n = 0; n < strip.contacts.size(); ++n)
     strip.contacts[n].table = strip.mesh.nodes[n][0] > 10;
   LubricatedFace face(strip.mesh.nodes, strip.mesh.triangles, std::vector<bool>(strip.mesh.nodes.size(), false),
-                      { strip.table, rough }, std::make_shared<ConstantOil>(), 0.67e-3, strip.settings);
+                      { strip.table, rough }, std::make_shared<ConstantOil>(), std::vector<double>(strip.mesh.nodes.size(), 0.67e-3), strip.settings);
   face.update(strip.mesh.nodes, strip.contacts, strip.increment);
   EXPECT_NEAR(face.nodes()[20].friction_coefficient - face.nodes()[0].friction_coefficient, 0.02, 1e-12);
   strip.contacts[0].table = 2;
@@ -505,6 +505,169 @@ TEST(LubricatedFace, FilmIterationsConverge)
       EXPECT_TRUE(face.statistics().converged);
     }
   EXPECT_LT(face.statistics().oscillation, 1.);
+}
+
+// Lubricant that is conserved: through pressure, stretch, sliding, contact that comes and goes and the edge of the blank.
+TEST(LubricatedFace, TransportConservesTheLubricant)
+{
+  Strip strip;
+  strip.settings.supply          = LubricationSettings::Supply::film_transport;
+  strip.settings.film_iterations = 30;
+  std::vector<bool> edge(strip.mesh.nodes.size());
+  std::vector<double> film(edge.size());
+  for (unsigned n = 0; n < edge.size(); ++n)
+    {
+      edge[n] = strip.mesh.at_side(n);
+      film[n] = (1. + 0.25 * strip.mesh.nodes[n][1]) * 1e-3; // 1 to 3 um
+    }
+  LubricatedFace face(strip.mesh.nodes, strip.mesh.triangles, edge, { strip.table }, std::make_shared<ConstantOil>(),
+                      film, strip.settings);
+  auto           positions = strip.mesh.nodes;
+  unsigned       met[4]    = { 0, 0, 0, 0 };
+  for (unsigned step = 0; step < 12; ++step)
+    {
+      for (unsigned n = 0; n < edge.size(); ++n)
+        {
+          auto        &c = strip.contacts[n];
+          const double x = strip.mesh.nodes[n][0];
+          c.table        = x > 4 + 0.7 * step && x < 15 + 0.3 * step ? 0 : -1;
+          // The load rises and falls.
+          c.nominal_pressure = c.table < 0 ? 0. : 2 + 1.5 * std::abs(std::sin(0.3 * x + 0.5 * step)) * (2 + step % 5);
+          c.eps_p += 0.004 * (1 + std::cos(x));
+          positions[n][0] = x * (1 + 0.01 * step + 0.0005 * step * x);
+        }
+      strip.increment.at_rest = step == 0;
+      strip.increment.dt      = 1e-3; // little time to leave by the sides
+      face.update(positions, strip.contacts, strip.increment);
+      const auto &figures = face.statistics();
+      EXPECT_LT(std::abs(figures.volume_error), 1e-13);
+      EXPECT_TRUE(figures.converged) << step << " " << figures.film_change;
+      for (unsigned n = 0; n < edge.size(); ++n)
+        {
+          const auto &node = face.nodes()[n];
+          ++met[static_cast<int>(node.regime)];
+          EXPECT_GE(node.lubricant_pressure, 0);
+          EXPECT_LE(node.lubricant_pressure, node.nominal_pressure * (1 + 1e-9));
+          const double fill = node.supplied_film / node.film_thickness;
+          if (node.regime == Regime::full)
+            {
+              EXPECT_DOUBLE_EQ(node.lubricant_pressure, node.nominal_pressure);
+              EXPECT_NEAR(fill, 1., 1e-12); // the gap has opened as far as the lubricant fills it
+              EXPECT_GE(node.lift, 0.);
+              EXPECT_EQ(node.contact_fraction, 0.);
+            }
+          else if (node.regime == Regime::mixed)
+            EXPECT_NEAR(fill, 1., 1e-6);
+          else if (node.regime == Regime::boundary && !edge[n])
+            {
+              EXPECT_EQ(node.lubricant_pressure, 0.);
+              EXPECT_LT(fill, 1.);
+            }
+        }
+    }
+  for (const unsigned n : met)
+    EXPECT_GT(n, 20u); // all regimes have been met
+  EXPECT_GT(face.statistics().left_volume, 1e-4 * face.statistics().supplied_volume);
+}
+
+// Too little lubricant to fill the valleys anywhere gives the friction of the paper's rule.
+TEST(LubricatedFace, TransportOfLittleLubricantIsBoundaryFriction)
+{
+  Strip strip;
+  strip.settings.supply          = LubricationSettings::Supply::film_transport;
+  strip.settings.film_iterations = 30;
+  auto face                      = strip.face(0.67e-3);
+  face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+  for (const auto &node : face.nodes())
+    {
+      EXPECT_EQ(node.regime, Regime::boundary);
+      EXPECT_NEAR(node.friction_coefficient, boundary_friction(0.25, 40, 10, 10), 1e-9);
+    }
+}
+
+// Holder on a flooded sheet at rest, sealed all around: the lubricant cannot leave and carries what the asperities do
+// not. Film 1.8 um: on the table between s = 1.5 um (1.6 um, 10 MPa) and 2.0 um (2.02 um, 1 MPa).
+TEST(LubricatedFace, TrappedLubricantSharesTheLoadOfTheClosingHolder)
+{
+  Strip strip;
+  strip.settings.supply          = LubricationSettings::Supply::film_transport;
+  strip.settings.film_iterations = 30;
+  auto face                      = strip.face(1.8e-3);
+  face.update(strip.mesh.nodes, strip.contacts, { 0.5, 0., true });
+  const double s     = 1.5e-3 + 0.5e-3 * (1.8 - 1.6) / (2.02 - 1.6); // h_avg linear in s
+  const double solid = 10. - 9. * (s - 1.5e-3) / 0.5e-3;             // the table's law is linear in s between points
+  for (const auto &node : face.nodes())
+    {
+      EXPECT_NEAR(node.cut_height, s, 1e-9);
+      EXPECT_NEAR(node.film_thickness, 1.8e-3, 1e-12);
+      EXPECT_NEAR(node.solid_pressure, solid, 1e-3 * solid);
+      EXPECT_EQ(node.regime, Regime::mixed);
+    }
+}
+
+// Squeeze term of the paper's rule: a load that rises on a flooded film at rest relative to the tool raises the
+// pressure; without the term it has none, as nothing slides.
+TEST(LubricatedFace, SqueezeTermIsSwitchable)
+{
+  for (const bool kept : { false, true })
+    {
+      Strip strip;
+      strip.settings.squeeze         = kept;
+      strip.settings.film_iterations = 20;
+      auto face                      = strip.face(2.23e-3);
+      for (auto &c : strip.contacts)
+        {
+          c.sheet_velocity   = { 0, 0, 0 };
+          c.nominal_pressure = 3;
+        }
+      face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+      EXPECT_EQ(face.statistics().load_share, 0.);
+      for (auto &c : strip.contacts)
+        c.nominal_pressure = 9;
+      face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+      if (kept)
+        EXPECT_GT(face.statistics().load_share, 0.3);
+      else
+        EXPECT_EQ(face.statistics().load_share, 0.);
+    }
+}
+
+// Asperities that follow the table stand up again when the load falls.
+TEST(LubricatedFace, MemoryOfTheAsperitiesIsAnOption)
+{
+  for (const bool memory : { true, false })
+    {
+      Strip strip;
+      strip.settings.memory = memory;
+      auto face             = strip.face(0.67e-3);
+      face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+      for (auto &c : strip.contacts)
+        c.nominal_pressure = 1;
+      face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+      EXPECT_NEAR(face.nodes()[7].cut_height, memory ? 1.5e-3 : 2.0e-3, 1e-12); // 10 and 1 MPa
+    }
+}
+
+TEST(LubricatedFace, TransportGoesOnFromAnArchive)
+{
+  Strip strip;
+  strip.settings.supply          = LubricationSettings::Supply::film_transport;
+  strip.settings.film_iterations = 30;
+  strip.wedge(2, 30);
+  auto face = strip.face(2.23e-3), resumed = strip.face(1e-3);
+  face.update(strip.mesh.nodes, strip.contacts, strip.increment);
+  Archive archive;
+  face.save(archive, "film");
+  resumed.load(archive, "film");
+  for (auto *f : { &face, &resumed })
+    for (int step = 0; step < 2; ++step)
+      f->update(strip.mesh.nodes, strip.contacts, strip.increment);
+  EXPECT_EQ(face.report(), resumed.report());
+  for (std::size_t i = 0; i < strip.contacts.size(); ++i)
+    {
+      EXPECT_EQ(face.nodes()[i].lubricant_pressure, resumed.nodes()[i].lubricant_pressure);
+      EXPECT_EQ(face.nodes()[i].supplied_film, resumed.nodes()[i].supplied_film);
+    }
 }
 
 TEST(LubricatedFace, GoesOnFromAnArchiveAsIfNothingHadHappened)

@@ -158,16 +158,26 @@ TEST(LubricationSettings, DefaultsAndWrongValues)
   Parameters empty    = Parameters::from_text("");
   const auto settings = LubricationSettings::read(empty);
   empty.finish();
-  EXPECT_EQ(settings.film_iterations, 1u);
+  EXPECT_EQ(settings.supply, LubricationSettings::Supply::film_transport);
+  EXPECT_EQ(settings.film_iterations, 30u);
+  EXPECT_TRUE(settings.squeeze);
+  EXPECT_TRUE(settings.memory);
   EXPECT_DOUBLE_EQ(settings.contact_threshold, 0.05);
   EXPECT_EQ(settings.boundary_layer_pressure, LubricationSettings::BoundaryLayerPressure::solid_plus_lubricant);
 
   Parameters nominal = Parameters::from_text(
-      "subsection Coupling\nset Boundary layer pressure = nominal\nset Film iterations = 4\nend\n");
+      "subsection Coupling\nset Boundary layer pressure = nominal\nset Film iterations = 4\nset Squeeze term = kept\n"
+      "set Asperities = follow the table\nset Smoothing passes = 2\nend\n"
+      "subsection Lubricant\nset Supply = paper rule\nset Thinning = no\nend\n");
   const auto other = LubricationSettings::read(nominal);
   nominal.finish();
   EXPECT_EQ(other.boundary_layer_pressure, LubricationSettings::BoundaryLayerPressure::nominal);
   EXPECT_EQ(other.film_iterations, 4u);
+  EXPECT_EQ(other.supply, LubricationSettings::Supply::paper_rule);
+  EXPECT_TRUE(other.squeeze);
+  EXPECT_FALSE(other.memory);
+  EXPECT_FALSE(other.thinning);
+  EXPECT_EQ(other.smoothing, 2u);
 
   Parameters wrong = Parameters::from_text("subsection Coupling\nset Smallest friction coefficient = "
                                            "0.4\nend\nsubsection Lubricant\nset Supply = well\nend\n");
