@@ -33,8 +33,8 @@ namespace tribodraw
     for (unsigned f = 0; f < n_faces; ++f)
       {
         std::vector<double> film;
-        for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-          film.push_back(lubricant.supplied_film());
+        for (const auto &x : mesh.nodes)
+          film.push_back(lubricant.supplied_film(f, x[0], x[1]));
         faces[f] = std::make_unique<LubricatedFace>(mesh.nodes, mesh.triangles, mesh.on_outer_edge, face_tables[f], lubricant.viscosity_law, std::move(film), settings);
       }
     hand_over(contact);
@@ -107,6 +107,7 @@ namespace tribodraw
           {
             const bool touches = node.in_contact();
             const auto add     = [&](const char *name, const double value) { result[name + end].push_back(touches ? value : none); };
+            result["lubricant_film_thickness" + end].push_back(1e3 * node.supplied_film); // um, also where nothing touches
             add("solid_pressure", node.solid_pressure);
             add("lubricant_pressure", node.lubricant_pressure);
             add("film_thickness", 1e3 * node.film_thickness); // um
@@ -132,7 +133,12 @@ namespace tribodraw
   LubricatedFriction::report_end() const
   {
     for (unsigned f = 0; f < n_faces; ++f)
-      log::info(std::string("Film at the end, ") + side[f] + " side: " + faces[f]->report());
+      {
+        log::info(std::string("Film at the end, ") + side[f] + " side: " + faces[f]->report());
+        if (const unsigned n = faces[f]->statistics().n_unsettled; n > 0)
+          log::warning("In " + std::to_string(n) + " increments the film of the " + side[f] + " side did not settle; the last iterate was taken. "
+                       "The lubricant is conserved, its pressure is less exact there.");
+      }
     unsigned long outside = 0;
     for (const auto &table : tables)
       outside += table->n_outside();

@@ -31,21 +31,27 @@ namespace tribodraw
     void
     make_pattern()
     {
-      std::vector<Eigen::Triplet<double>> entries;
-      const std::size_t                   n_nodes = geometry.n_nodes();
-      for (const auto &cell : geometry.cells())
-        for (const unsigned i : cell.node)
-          for (const unsigned j : cell.node)
-            entries.emplace_back(i, j, i == j ? 1. : 0.);
-      matrix.resize(n_nodes, n_nodes);
-      matrix.setFromTriplets(entries.begin(), entries.end());
-      matrix.makeCompressed();
+      const int                           n = static_cast<int>(geometry.n_nodes());
+      const std::vector<std::vector<int>> columns = geometry.node_columns();
+      std::vector<int>                    start{ 0 }, column;
+      for (const auto &list : columns)
+        {
+          column.insert(column.end(), list.begin(), list.end());
+          start.push_back(static_cast<int>(column.size()));
+        }
+      const std::vector<double> ones(column.size(), 1.);
+      matrix = Eigen::Map<const BoundedSystem::Matrix>(n, n, start.back(), start.data(), column.data(), ones.data());
       for (const auto &cell : geometry.cells())
         {
           std::array<int, 9> position;
           for (unsigned i = 0; i < 3; ++i)
             for (unsigned j = 0; j < 3; ++j)
-              position[3 * i + j] = static_cast<int>(&matrix.coeffRef(cell.node[i], cell.node[j]) - matrix.valuePtr());
+              {
+                // The pattern is symmetric: column j lists the nodes around node j.
+                const int  node  = static_cast<int>(cell.node[j]);
+                const auto begin = column.begin() + start[node], end = column.begin() + start[node + 1];
+                position[3 * i + j] = static_cast<int>(std::lower_bound(begin, end, static_cast<int>(cell.node[i])) - column.begin());
+              }
           positions.push_back(position);
         }
       system.analyse(matrix);
@@ -80,9 +86,16 @@ namespace tribodraw
       std::fill(value, value + matrix.nonZeros(), 0.);
       const std::size_t n_nodes = geometry.n_nodes();
       rhs                       = Eigen::VectorXd::Zero(n_nodes);
+      // Of a large film each rank needs the rows of its own nodes only.
+      const auto [begin, end] = BoundedSystem::needed_range(static_cast<int>(n_nodes));
+      const auto needed       = [b = static_cast<unsigned>(begin), e = static_cast<unsigned>(end)](const unsigned i) {
+        return i >= b && i < e;
+      };
       for (std::size_t c = 0; c < geometry.cells().size(); ++c)
         {
-          const FilmGeometry::Cell              &cell = geometry.cells()[c];
+          const FilmGeometry::Cell &cell = geometry.cells()[c];
+          if (!needed(cell.node[0]) && !needed(cell.node[1]) && !needed(cell.node[2]))
+            continue;
           std::array<const FilmCoefficient *, 3> local;
           unsigned                               n_films = 0, n_free = 0;
           for (unsigned i = 0; i < 3; ++i)
@@ -103,9 +116,9 @@ namespace tribodraw
               matrix.coeffRef(i, i) += area[i] * nodes[i].squeeze_slope;
         }
       // A node without any film around it is fixed; the unit entry keeps the matrix regular.
-      for (std::size_t i = 0; i < n_nodes; ++i)
-        if (matrix.coeff(i, i) == 0.)
-          matrix.coeffRef(i, i) = 1.;
+      for (int i = begin; i < end; ++i)
+        if (double &diagonal = matrix.coeffRef(i, i); diagonal == 0.)
+          diagonal = 1.;
     }
 
     /// int grad N_i . (h^3/(12 eta) PhiP) grad N_j  and  int grad N_i . (h (U1+U2)/2 + Sq PhiS (U1-U2)/2) - N_i
@@ -127,7 +140,7 @@ namespace tribodraw
     }
 
     Result
-    report(const std::vector<NodeData> &nodes, const Eigen::VectorXd &rhs, BoundedSystem::Result &&solution) const
+    report(const std::vector<NodeData> &nodes, BoundedSystem::Result &&solution) const
     {
       const std::size_t n_nodes = geometry.n_nodes();
       Result            result;
@@ -137,7 +150,7 @@ namespace tribodraw
       result.outflow.assign(solution.residual.data(), solution.residual.data() + n_nodes);
       result.opening_rate.assign(n_nodes, 0.);
       const Eigen::VectorXd area          = geometry.nodal_area();
-      const Eigen::VectorXd pressure_flow = matrix * solution.x;
+      const Eigen::VectorXd pressure_flow = solution.load - solution.residual;
       double                sum = 0, magnitude = 0;
       for (std::size_t i = 0; i < n_nodes; ++i)
         if (solution.set[i] == BoundedSystem::at_upper)
@@ -145,7 +158,7 @@ namespace tribodraw
         else if (solution.set[i] == BoundedSystem::free && !nodes[i].fixed)
           {
             sum += solution.residual[i];
-            magnitude += std::abs(rhs[i]) + std::abs(pressure_flow[i]);
+            magnitude += std::abs(solution.load[i]) + std::abs(pressure_flow[i]);
           }
       result.flux_imbalance = magnitude > 0 ? std::abs(sum) / magnitude : 0.;
       return result;
@@ -186,7 +199,7 @@ namespace tribodraw
                    : start[i] > 0       ? BoundedSystem::free
                                         : BoundedSystem::at_zero;
       }
-    return data->report(nodes, rhs, data->system.solve(data->matrix, rhs, upper, std::move(set), std::move(x)));
+    return data->report(nodes, data->system.solve(data->matrix, rhs, upper, std::move(set), std::move(x)));
   }
 
   double

@@ -1,3 +1,6 @@
+#include "large_system.h"
+
+#include <tribodraw/base/parallel.h>
 #include <tribodraw/lubrication/bounded_system.h>
 
 #include <algorithm>
@@ -11,7 +14,28 @@ namespace tribodraw
     constexpr unsigned max_iterations = 500;
     constexpr unsigned patience       = 10;
     // A node changes its set if that alters its pressure by more than this part of the largest pressure.
-    constexpr double tolerance = 1e-11;
+    constexpr double set_tolerance = 1e-11;
+    // The same with an iterative solution, in parts of its tolerance.
+    constexpr double iterative_set_tolerance = 10;
+
+    bool
+    is_large(const Eigen::Index n)
+    {
+      return n > large_system::direct_limit;
+    }
+
+    /// The vector of which each rank knows its own range.
+    void
+    gather(Eigen::VectorXd &x)
+    {
+      if (parallel::size() == 1)
+        return;
+      const auto [begin, end] = large_system::own_range(static_cast<int>(x.size()));
+      std::vector<double> whole(x.size(), 0.);
+      std::copy(x.data() + begin, x.data() + end, whole.begin() + begin);
+      parallel::sum(whole);
+      x = Eigen::Map<const Eigen::VectorXd>(whole.data(), x.size());
+    }
 
     double
     pressure_scale(const Eigen::VectorXd &diagonal, const Eigen::VectorXd &f, const Eigen::VectorXd &x,
@@ -47,10 +71,31 @@ namespace tribodraw
     }
   } // namespace
 
+  std::pair<int, int>
+  BoundedSystem::needed_range(const int n)
+  {
+    return is_large(n) ? large_system::own_range(n) : std::pair<int, int>(0, n);
+  }
+
+  Eigen::VectorXd
+  BoundedSystem::multiply(const Matrix &K, const Eigen::VectorXd &x) const
+  {
+    if (!is_large(x.size()))
+      return K * x;
+    const auto [begin, end] = needed_range(static_cast<int>(x.size()));
+    Eigen::VectorXd y       = Eigen::VectorXd::Zero(x.size());
+    for (int j = begin; j < end; ++j) // symmetric
+      for (Matrix::InnerIterator entry(K, j); entry; ++entry)
+        y[j] += entry.value() * x[entry.index()];
+    gather(y);
+    return y;
+  }
+
   void
   BoundedSystem::analyse(const Matrix &pattern)
   {
-    factors.analyzePattern(pattern);
+    if (!is_large(pattern.cols()))
+      factors.analyzePattern(pattern);
     reduced = pattern;
   }
 
@@ -58,7 +103,11 @@ namespace tribodraw
   BoundedSystem::solve_linear(const Matrix &K, const Eigen::VectorXd &f, const std::vector<char> &set,
                               Eigen::VectorXd &x)
   {
-    // Unknowns that are held get a row of the identity, so that the pattern (and its ordering) never changes.
+    Eigen::VectorXd held(x.size());
+    for (int i = 0; i < x.size(); ++i)
+      held[i] = set[i] == free ? 0. : x[i];
+    Eigen::VectorXd rhs = f - multiply(K, held);
+    // Unknowns that are held keep their diagonal only, so that the pattern (and its ordering) never changes.
     const int    *start = K.outerIndexPtr(), *row = K.innerIndexPtr();
     const double *value  = K.valuePtr();
     double       *target = reduced.valuePtr();
@@ -68,20 +117,27 @@ namespace tribodraw
           target[k] = set[row[k]] == free ? value[k] : 0.;
       else
         for (int k = start[j]; k < start[j + 1]; ++k)
-          target[k] = row[k] == j ? 1. : 0.;
+          {
+            target[k] = row[k] == j ? value[k] : 0.;
+            if (row[k] == j)
+              rhs[j] = value[k] * x[j];
+          }
 
-    Eigen::VectorXd held(x.size()), rhs(x.size());
+    Eigen::VectorXd solution = x;
+    bool            solved   = true;
+    if (is_large(x.size()))
+      solved = large_system::solve(reduced, rhs, tolerance, solution);
+    else
+      {
+        factors.factorize(reduced);
+        solved = factors.info() == Eigen::Success;
+        if (solved)
+          solution = factors.solve(rhs);
+      }
     for (int i = 0; i < x.size(); ++i)
-      held[i] = set[i] == free ? 0. : x[i];
-    rhs = f - K * held;
-    for (int i = 0; i < x.size(); ++i)
-      if (set[i] != free)
-        rhs[i] = x[i];
-    factors.factorize(reduced);
-    if (factors.info() != Eigen::Success)
-      return false;
-    x = factors.solve(rhs);
-    return true;
+      if (set[i] == free) // the others keep their exact values
+        x[i] = solution[i];
+    return solved;
   }
 
   BoundedSystem::Result
@@ -89,7 +145,13 @@ namespace tribodraw
                        Eigen::VectorXd x)
   {
     const int             n        = static_cast<int>(f.size());
-    const Eigen::VectorXd diagonal = K.diagonal();
+    const bool            large    = is_large(n);
+    Eigen::VectorXd       diagonal = K.diagonal(), load = f;
+    if (large)
+      {
+        gather(diagonal);
+        gather(load);
+      }
     Result                result;
     std::vector<char>     wanted(n);
     int                   fewest = n + 1;
@@ -99,10 +161,10 @@ namespace tribodraw
         for (int i = 0; i < n; ++i)
           if (set[i] == at_zero || set[i] == at_upper)
             x[i] = set[i] == at_zero ? 0. : upper[i];
-        if (!solve_linear(K, f, set, x))
+        if (!solve_linear(K, load, set, x))
           break;
-        result.residual     = f - K * x;
-        const double margin = tolerance * pressure_scale(diagonal, f, x, set);
+        result.residual     = load - multiply(K, x);
+        const double margin = (large ? iterative_set_tolerance * tolerance : set_tolerance) * pressure_scale(diagonal, load, x, set);
 
         int n_wrong = 0, last_wrong = -1;
         for (int i = 0; i < n; ++i)
@@ -137,8 +199,9 @@ namespace tribodraw
       if (set[i] != prescribed)
         x[i] = std::isfinite(x[i]) ? std::clamp(x[i], 0., upper[i]) : 0.;
     result.iterations = std::min(result.iterations, max_iterations);
-    result.residual   = f - K * x;
+    result.residual   = load - multiply(K, x);
     result.x          = std::move(x);
+    result.load       = std::move(load);
     result.set        = std::move(set);
     return result;
   }

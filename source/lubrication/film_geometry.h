@@ -48,6 +48,8 @@ namespace tribodraw
     {
       return triangles;
     }
+    /// For each node the sorted nodes of the triangles around it, itself included.
+    std::vector<std::vector<int>> node_columns() const;
     const std::vector<QuadraturePoint> &
     quadrature() const
     {

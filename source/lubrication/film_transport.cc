@@ -62,17 +62,7 @@ namespace tribodraw
                    const double floor)
         : geometry(reference, triangles), phi_p_floor(floor)
     {
-      std::vector<std::vector<int>> columns(geometry.n_nodes());
-      for (const auto &cell : geometry.cells())
-        for (const unsigned i : cell.node)
-          for (const unsigned j : cell.node)
-            columns[i].push_back(static_cast<int>(j));
-      for (auto &row : columns)
-        {
-          std::sort(row.begin(), row.end());
-          row.erase(std::unique(row.begin(), row.end()), row.end());
-        }
-      matrix = SparseMatrix(columns);
+      matrix = SparseMatrix(geometry.node_columns());
       for (const auto &cell : geometry.cells())
         {
           std::array<int, 9> position;

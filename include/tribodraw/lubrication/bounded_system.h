@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <utility>
 #include <vector>
 
 namespace tribodraw
@@ -18,9 +19,15 @@ namespace tribodraw
   public:
     using Matrix = Eigen::SparseMatrix<double>;
 
+    /// Unknowns whose columns of K and entries of f this rank must know: all of a small system; of one that is solved
+    /// with multigrid (`large_system.h`) its own range.
+    static std::pair<int, int> needed_range(int n);
+    /// Residual of an iterative solution relative to the right-hand side.
+    double tolerance = 1e-10;
+
     struct Result
     {
-      Eigen::VectorXd   x, residual;
+      Eigen::VectorXd   x, residual, load; ///< load: f, whole on every rank
       std::vector<char> set; ///< per unknown, one of Set
       unsigned          iterations = 0;
       bool              converged  = false;
@@ -45,6 +52,7 @@ namespace tribodraw
     Eigen::SimplicialLDLT<Matrix> factors;
     Matrix                        reduced;
 
+    Eigen::VectorXd multiply(const Matrix &K, const Eigen::VectorXd &x) const;
     bool solve_linear(const Matrix &K, const Eigen::VectorXd &f, const std::vector<char> &set, Eigen::VectorXd &x);
   };
 } // namespace tribodraw

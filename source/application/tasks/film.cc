@@ -56,7 +56,9 @@ namespace tribodraw
         SurfaceFields fields;
         fields.points       = result.nodes;
         fields.triangles    = result.triangles;
-        fields.node_scalars = { { "lubricant_pressure", result.pressure }, { "film_thickness", film_in_um(result) } };
+        fields.node_scalars = { { "lubricant_pressure", result.pressure },
+                                { "film_thickness", film_in_um(result) },
+                                { "film_fraction", result.fill } };
         fields.units        = { { "lubricant_pressure", "MPa" }, { "film_thickness", "um" } };
         write_vtu(context.file("solution-00000.vtu"), fields);
         PvdCollection steps;
@@ -69,10 +71,11 @@ namespace tribodraw
       write_mesh(const PrescribedFilm::Result &result, const RunContext &context)
       {
         const auto film = film_in_um(result);
-        CsvTable   nodes({ "node", "x_mm", "y_mm", "z_mm", "lubricant_pressure_mpa", "film_thickness_um" });
+        CsvTable   nodes({ "node", "x_mm", "y_mm", "z_mm", "lubricant_pressure_mpa", "film_thickness_um",
+                         "film_fraction" });
         for (std::size_t i = 0; i < result.nodes.size(); ++i)
           nodes.add_row({ static_cast<long>(i), result.nodes[i][0], result.nodes[i][1], result.nodes[i][2],
-                          result.pressure[i], film[i] });
+                          result.pressure[i], film[i], result.fill[i] });
         nodes.save(context.file("nodes_final.csv"));
         CsvTable elements({ "element", "n1", "n2", "n3" });
         for (std::size_t e = 0; e < result.triangles.size(); ++e)

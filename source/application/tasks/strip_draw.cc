@@ -76,7 +76,7 @@ namespace tribodraw
         }
         {
           const auto scope              = p.section("Lubricant");
-          lubricant                     = Lubricant::read(p);
+          lubricant                     = Lubricant::read(p, false);
           base.conditions.supplied_film = lubricant.supplied_film();
           base.viscosity                = lubricant.viscosity_law ? lubricant.viscosity_law->reference_viscosity() : 0.;
         }

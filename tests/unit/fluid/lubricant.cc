@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 using namespace tribodraw;
 
 namespace
@@ -48,6 +51,61 @@ TEST(Lubricant, SuppliedFilmOfThePaper)
   EXPECT_NEAR(read(oil).supplied_film(), 2.2321e-3, 5e-8);
   EXPECT_NEAR(read(oil, { "Lubricant/Amount = 1.0 g/m^2" }).supplied_film(), 1.1161e-3, 5e-8);
   EXPECT_NEAR(read(oil, { "Lubricant/Amount = 0.6 g/m^2" }).supplied_film(), 0.6696e-3, 5e-8);
+}
+
+TEST(Lubricant, AmountOfEachFace)
+{
+  const Lubricant two = read(oil, { "Lubricant/Amount = 1.792 g/m^2, 0.896 g/m^2" });
+  EXPECT_NEAR(two.supplied_film(0, 3, 4), 2e-3, 1e-12); // 1.792/0.896 um on the punch side
+  EXPECT_NEAR(two.supplied_film(1, 3, 4), 1e-3, 1e-12);
+  EXPECT_NE(message(oil, { "Lubricant/Amount = 1 g/m^2, 1 g/m^2, 1 g/m^2" }).find("two faces"), std::string::npos);
+}
+
+namespace
+{
+  std::string
+  write(const std::string &name, const std::string &text)
+  {
+    const auto    file = std::filesystem::temp_directory_path() / ("tribodraw_" + name + ".csv");
+    std::ofstream(file) << text;
+    return file.string();
+  }
+} // namespace
+
+TEST(Lubricant, MapAndTraverse)
+{
+  // Bilinear between the points of a grid given in any order; amounts at density 0.896 g/cm^3.
+  const auto map = AmountMap::read(write("map", "x_mm,y_mm,amount_g_per_m2\n0,0,1\n10,0,2\n10,20,4\n0,20,3\n"));
+  EXPECT_NEAR(map.at(0, 5, 5), 2e-12, 1e-20); // 1 + 0.5 + 0.5 g/m^2 = 2e-12 t/mm^2
+  EXPECT_NEAR(map.at(1, 10, 20), 4e-12, 1e-20);
+  EXPECT_EQ(map.asymmetry(), 0.); // a quarter
+  EXPECT_THROW(map.at(0, 11, 5), InputError);
+
+  const std::string text = oil.substr(0, oil.find("  set Amount")) + "  set Amount file = "
+                           + write("traverse", "y_mm,amount_punch_g_per_m2,amount_die_g_per_m2\n-10,1,2\n0,2,2\n10,1,0\n")
+                           + "\nend\n";
+  const Lubricant lubricant = read(text);
+  EXPECT_NEAR(lubricant.supplied_film(0, 123, 5), 1.5e-3 / 0.896, 1e-12); // whatever x
+  EXPECT_NEAR(lubricant.supplied_film(1, -7, 5), 1e-3 / 0.896, 1e-12);
+  EXPECT_NEAR(lubricant.map->asymmetry(), 1., 1e-12); // 2 at -10, 0 at 10, of 2
+}
+
+TEST(Lubricant, WrongMapsAreRefused)
+{
+  const auto refused = [](const std::string &text) {
+    EXPECT_THROW(AmountMap::read(write("wrong", text)), InputError) << text;
+  };
+  refused("x_mm,y_mm,amount_g_per_m2\n0,0,1\n1,0,1\n0,1,1\n");                 // no grid
+  refused("x_mm,y_mm,amount_g_per_m2\n0,0,1\n1,0,1\n0,1,1\n0,0,1\n");          // twice
+  refused("x_mm,amount_g_per_m2\n0,-1\n1,0\n");                                // negative
+  refused("x_mm,amount_g_per_m2\n0,1000\n1,0\n");                              // mg taken for g
+  refused("x_mm,amount_punch_g_per_m2\n0,1\n1,1\n");                            // one face
+  refused("amount_g_per_m2\n1\n");                                             // no coordinate
+  refused("x_mm,amount_g_per_m2\n");                                           // no row
+  refused("x_mm,amount_g_per_m2\n0,one\n");                                    // no number
+  const std::string text = oil.substr(0, oil.find("  set Amount")) + "  set Amount file = "
+                           + write("wrong", "amount_g_per_m2\n1\n") + "\nend\n";
+  EXPECT_NE(message(text).find("Amount file"), std::string::npos);
 }
 
 TEST(Lubricant, ViscosityIsTheOneOfTheSection)

@@ -153,6 +153,139 @@ TEST(PrescribedFilm, ShippedFileGivesTheResultItPromises)
   EXPECT_NE(text.find("\nmax_pressure,"), std::string::npos);
 }
 
+namespace
+{
+  PrescribedFilm::Result
+  solve(const std::string &gap, const std::string &process, const std::string &viscosity = "10 mPa s")
+  {
+    const std::string text = "set Task = film\nsubsection Gap\n" + gap + "end\nsubsection Process\n" + process
+                             + "end\nsubsection Lubricant\nset Viscosity = " + viscosity + "\nend\n";
+    Parameters        parameters = Parameters::from_text(text);
+    parameters.choice("Task", { "film" }, "");
+    const PrescribedFilm film(parameters);
+    parameters.finish();
+    return film.solve();
+  }
+
+  /// Radius 10 mm, clearance 10 um, 1 mm wide, 1 m/s, 10 mPa s: units of load eta U R^2/c^2 per width, of pressure
+  /// eta U R/c^2.
+  PrescribedFilm::Result
+  journal(const double eccentricity, const std::string &cavitation, const int along)
+  {
+    return solve("set Model = journal\nset Sides = no flow\nset Elements across = 1\nset Elements along = "
+                     + std::to_string(along)
+                     + "\nsubsection Journal\nset Radius = 10 mm\nset Clearance = 10 um\nset Eccentricity = "
+                     + std::to_string(eccentricity) + "\nset Width = 1 mm\nend\n",
+                 "set Sheet speed = 1000 mm/s\nset Cavitation = " + cavitation + "\n");
+  }
+  constexpr double journal_load = 1e-8 * 1000 * 100 / (1e-2 * 1e-2), journal_pressure = 1e-8 * 1000 * 10 / (1e-2 * 1e-2);
+} // namespace
+
+// Infinitely long journal bearing. Full Sommerfeld: W* = 12 pi e/((2 + e^2) sqrt(1 - e^2)), attitude 90 degrees. Half
+// Sommerfeld and Reynolds: quadrature of the closed form of the pressure, with the rupture angle from p = p' = 0.
+TEST(PrescribedFilm, JournalBearing)
+{
+  struct Exact
+  {
+    double e, full, half, reynolds, rupture, attitude, pressure;
+  };
+  for (const Exact &x : { Exact{ 0.2, 3.772205, 1.901961, 2.572560, 241.326, 66.900, 1.58168 },
+                          Exact{ 0.5, 9.673597, 5.153165, 6.455556, 219.694, 58.296, 4.47499 },
+                          Exact{ 0.8, 19.039955, 12.487171, 15.083281, 200.174, 42.181, 15.13426 } })
+    {
+      const int  n    = 720;
+      const auto full = journal(x.e, "none", n), half = journal(x.e, "cut off", n), film = journal(x.e, "Reynolds", n),
+                 jfo = journal(x.e, "mass conserving", n);
+      EXPECT_NEAR(full.load / journal_load, x.full, 3e-4 * x.full);
+      EXPECT_NEAR(full.attitude * 180 / M_PI, 90., 0.02);
+      EXPECT_NEAR(half.load / journal_load, x.half, 3e-4 * x.half);
+      EXPECT_NEAR(film.load / journal_load, x.reynolds, 3e-4 * x.reynolds);
+      EXPECT_NEAR(film.attitude * 180 / M_PI, x.attitude, 0.03);
+      EXPECT_NEAR(film.max_pressure / journal_pressure, x.pressure, 3e-4 * x.pressure);
+      EXPECT_NEAR(film.rupture_x / 10 * 180 / M_PI, x.rupture, 360. / n);
+      // With a flooded inlet at the widest gap the pressure of the mass-conserving film is Reynolds'; here the flow
+      // is conserved as well.
+      EXPECT_NEAR(jfo.load, film.load, 2e-3 * film.load);
+      EXPECT_NEAR(jfo.flow_in, jfo.flow_out, 1e-12 * jfo.flow_in);
+      EXPECT_LT(jfo.volume_error, 1e-12);
+      EXPECT_GT(film.flow_out, 1.1 * film.flow_in); // Reynolds' condition makes lubricant where the film forms again
+    }
+  // Order two in the element size.
+  const double exact  = 12 * M_PI * 0.5 / (2.25 * std::sqrt(0.75));
+  const double coarse = journal(0.5, "none", 90).load / journal_load - exact,
+               fine   = journal(0.5, "none", 180).load / journal_load - exact;
+  EXPECT_NEAR(std::log2(coarse / fine), 2., 0.1);
+}
+
+// Parallel pocket: exact piecewise solution, see test FilmTransport.parallel_pocket_with_jump_of_the_gap.
+TEST(PrescribedFilm, ParallelPocket)
+{
+  const auto r = solve("set Model = pocket\nset Sides = no flow\nset Elements across = 1\nset Elements along = 400\n"
+                       "set Smallest element at jumps = 0.01\nsubsection Pocket\nset Land film = 1 um\nset Pocket film = "
+                       "1.4 um\nset Length = 20 mm\nset Width = 1 mm\nset Pocket start = 4 mm\nset Pocket end = 10 mm\n"
+                       "end\n",
+                       "set Sheet speed = 1000 mm/s\nset Ambient pressure = 0.1 MPa\nset Cavitation = mass conserving\n");
+  EXPECT_NEAR(r.load, 2.45701, 1e-3 * 2.45701); // N for 1 mm
+  EXPECT_NEAR(r.max_pressure, 0.35, 0.01 * 0.35);
+  EXPECT_NEAR(r.x_max, 10., 1e-4);
+  EXPECT_NEAR(r.flow_in, 0.500208333, 1e-7);
+  EXPECT_NEAR(r.flow_out, r.flow_in, 1e-12);
+  EXPECT_LT(r.volume_error, 1e-12);
+  double fraction = 0;
+  for (std::size_t i = 0; i < r.nodes.size(); ++i)
+    if (std::abs(r.nodes[i][0] - 7) < 0.03)
+      fraction = r.fill[i];
+  EXPECT_NEAR(fraction, 0.714583, 1e-5);
+}
+
+// Squeeze films (Stefan): strip of length B W = eta V B^3/h^3 per width; disc W = 3 pi eta V R^4/(2 h^3), and the time of
+// fall under a load 3 pi eta R^4/(4 W) (1/h2^2 - 1/h1^2).
+TEST(PrescribedFilm, SqueezeFilms)
+{
+  const std::string press = "set Sheet speed = 0 mm/s\nset Approach speed = 1 mm/s\n";
+  const auto        strip = [&](const int n) {
+    return solve("set Model = parallel\nset Sides = no flow\nset Elements across = 2\nset Elements along = "
+                            + std::to_string(n) + "\nsubsection Parallel\nset Film = 20 um\nset Length = 8 mm\nset Width = 1 mm\nend\n",
+                        press)
+               .load
+           / (1e-8 * 512 / 8e-6); // eta V B^3/h^3
+  };
+  EXPECT_NEAR(strip(64), 1., 1e-3);
+  EXPECT_NEAR(std::log2((1 - strip(64)) / (1 - strip(128))), 2., 0.1);
+
+  const auto disc = [&](const int n, const std::string &more) {
+    return solve("set Model = disc\nset Elements along = " + std::to_string(n)
+                     + "\nset Sides = pressure zero\nsubsection Disc\nset Film = 20 um\nset Radius = 5 mm\nend\n",
+                 press + more);
+  };
+  const double load = 1.5 * M_PI * 1e-8 * 625 / 8e-6;
+  EXPECT_NEAR(disc(60, "").load, load, 5e-3 * load);
+  EXPECT_NEAR(disc(120, "").load, load, 1.3e-3 * load);
+  const double time = 0.75 * M_PI * 1e-8 * 625 / 2. * (1. / 25e-6 - 1. / 400e-6); // 2 N, 20 to 5 um
+  EXPECT_NEAR(disc(120, "set Load = 2 N\nset Final gap = 5 um\n").fall_time, time, 1.3e-3 * time);
+}
+
+TEST(PrescribedFilm, ShippedFilesOfPublishedCases)
+{
+  for (const char *name : { "journal_bearing", "pocket_bearing", "squeeze_film" })
+    {
+      Parameters parameters = Parameters::from_file(TRIBODRAW_SOURCE_DIR "/prm/" + std::string(name) + ".prm");
+      parameters.choice("Task", { "film" }, "");
+      const PrescribedFilm film(parameters);
+      parameters.finish();
+      const auto r = film.solve();
+      if (name == std::string("journal_bearing"))
+        {
+          EXPECT_NEAR(r.load / r.nodes.back()[1] / journal_load, 6.455556, 2e-3 * 6.455556);
+          EXPECT_NEAR(r.attitude * 180 / M_PI, 58.296, 0.1);
+        }
+      else if (name == std::string("pocket_bearing"))
+        EXPECT_NEAR(r.load / r.nodes.back()[1], 2.45701, 1e-3 * 2.45701);
+      else
+        EXPECT_NEAR(r.fall_time, 0.75 * M_PI * 1e-8 * 625 / 2. * (1. / 25e-6 - 1. / 400e-6), 2e-3 * r.fall_time);
+    }
+}
+
 TEST(LubricationSettings, DefaultsAndWrongValues)
 {
   Parameters empty    = Parameters::from_text("");
