@@ -1,6 +1,8 @@
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/contact/contact.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,34 @@ namespace tribodraw
 {
   using Eigen::Matrix3d;
   using Eigen::Vector3d;
+
+  namespace
+  {
+    /// Automatic transition by the thickness, and the pressure at this penetration by E/(1-nu) of the sheet: 150 MPa for
+    /// steel. Pressures on tool radii are fractions of the flow stress, which is 1/1000 to 1/200 of E.
+    constexpr double relative_transition = 0.025, relative_pressure = 1. / 2000;
+
+    /// E/(1-nu), from the forces that a small equibiaxial stretch of the whole sheet needs.
+    double
+    equibiaxial_modulus(Shell &shell)
+    {
+      const double    strain = 1e-7;
+      Eigen::VectorXd x      = Eigen::VectorXd::Zero(shell.n_dofs()), force;
+      double          volume = 0;
+      for (unsigned node = 0; node < shell.n_nodes(); ++node)
+        {
+          for (unsigned c = 0; c < 3; ++c)
+            x[shell.dof(node, c)] = shell.trial().position[node][c];
+          volume += shell.node_reference_area()[node] * shell.node_thickness()[node];
+        }
+      Eigen::VectorXd at_rest;
+      shell.assemble(1., {}, at_rest, nullptr);
+      shell.move(strain * x);
+      shell.assemble(1., {}, force, nullptr);
+      shell.revert();
+      return (force - at_rest).dot(x) / (2 * strain * volume);
+    }
+  } // namespace
 
   ToolDistance
   ContactTool::distance(const Vector3d &x) const
@@ -24,20 +54,37 @@ namespace tribodraw
     return d;
   }
 
-  Contact::Contact(const Shell &shell, std::vector<ContactTool> tools, const Settings &contact_settings)
+  Contact::Tangent::Tangent(const Shell &shell, const unsigned n_free_tools)
+    : sheet(shell.make_matrix())
+    , column(shell.n_dofs(), n_free_tools)
+    , row(shell.n_dofs(), n_free_tools)
+    , corner(n_free_tools, n_free_tools)
+  {
+    set_zero();
+  }
+
+  void
+  Contact::Tangent::set_zero()
+  {
+    sheet.set_zero();
+    column.setZero();
+    row.setZero();
+    corner.setZero();
+  }
+
+  Contact::Contact(Shell &shell, std::vector<ContactTool> tools, const Settings &contact_settings)
     : sheet(shell)
+    , points(shell)
     , tool(std::move(tools))
     , settings(contact_settings)
-    , area(shell.node_current_area())
-    , pair(tool.size(), std::vector<NodeTool>(shell.n_nodes()))
+    , automatic(contact_settings.stiffness <= 0)
+    , pair(tool.size(), std::vector<Pair>(points.size()))
     , tool_force(tool.size(), Vector3d::Zero())
-    , node_force(shell.n_nodes(), Vector3d::Zero())
+    , sheet_force(Eigen::VectorXd::Zero(shell.n_dofs()))
   {
-    for (const double h : shell.node_thickness())
-      half_thickness.push_back(0.5 * h);
     for (unsigned f = 0; f < n_faces; ++f)
       {
-        mu[f].assign(shell.n_nodes(), 0.);
+        law_of_friction[f].coefficient.assign(shell.n_nodes(), 0.);
         faces[f] = {std::vector<double>(shell.n_nodes(), 0.),
                     std::vector<int>(shell.n_nodes(), -1),
                     std::vector<double>(shell.n_nodes(), 1e300),
@@ -45,6 +92,26 @@ namespace tribodraw
       }
     for (auto &t : tool)
       t.committed_place = t.place;
+    measure_sheet();
+    const double thickness = 2 * *std::max_element(half_thickness.begin(), half_thickness.end());
+    deepest_allowed        = largest_relative_penetration * thickness;
+    if (settings.transition <= 0)
+      settings.transition = relative_transition * thickness;
+    if (automatic)
+      settings.stiffness = relative_pressure * equibiaxial_modulus(shell) / (relative_transition * thickness);
+  }
+
+  void
+  Contact::measure_sheet()
+  {
+    area = points.areas(sheet.committed().position);
+    half_thickness.resize(points.size());
+    committed_position.resize(points.size());
+    for (unsigned point = 0; point < points.size(); ++point)
+      {
+        half_thickness[point]     = 0.5 * points.mean(sheet.node_thickness(), point);
+        committed_position[point] = points.position(sheet.committed(), point);
+      }
   }
 
   void
@@ -55,9 +122,9 @@ namespace tribodraw
   }
 
   void
-  Contact::set_friction(const Face f, std::vector<double> coefficient)
+  Contact::set_friction(const Face f, std::vector<double> coefficient, std::vector<double> slope, std::vector<double> pressure)
   {
-    mu[static_cast<int>(f)] = std::move(coefficient);
+    law_of_friction[static_cast<int>(f)] = {std::move(coefficient), std::move(slope), std::move(pressure)};
   }
 
   Contact::Law
@@ -82,114 +149,130 @@ namespace tribodraw
     return e * (d * d / 6 + 0.5 * g * g);
   }
 
-  void
-  Contact::evaluate(const unsigned node, const unsigned t, const Options &options, Vector3d &force, Matrix3d &K, double &weight)
+  Contact::Law
+  Contact::friction_at(const FrictionLaw &friction, const unsigned point, const double pressure) const
   {
-    const ContactTool &rigid = tool[t];
-    NodeTool          &n     = pair[t][node];
-    const Vector3d    &x     = sheet.trial().position[node];
-    weight                   = area[node];
-    force.setZero();
-    K.setZero();
-    n.trial_pressure = 0;
-    n.trial_slip.setZero();
-    n.trial_traction.setZero();
-    n.trial_sliding.setZero();
-    n.trial_slides = false;
+    const double mu = points.mean(friction.coefficient, point);
+    if (friction.slope.empty())
+      return {mu, 0};
+    const double slope = points.mean(friction.slope, point);
+    const double value = mu + slope * (pressure - points.mean(friction.pressure, point));
+    return value > 0 ? Law{value, slope} : Law{0, 0};
+  }
 
-    const ToolDistance at          = rigid.distance(x);
-    const double       penetration = half_thickness[node] - at.distance;
-    n.trial_penetration            = penetration;
-    if (options.frozen ? n.pressure == 0 : penetration <= -settings.transition)
-      return;
-    const Law       response   = law(penetration);
-    const double    p          = response.pressure;
-    const double    friction   = mu[static_cast<int>(rigid.face)][node];
-    const double    dc         = settings.stick_slip;
-    const Matrix3d  P          = Matrix3d::Identity() - at.normal * at.normal.transpose();
-    const Vector3d  sliding    = P * (x - sheet.committed().position[node] - rigid.motion());
-    const Vector3d  slip       = P * n.slip + sliding;
-    const double    amount     = slip.norm();
-    const bool      slides     = amount > dc;
-    const Vector3d  direction  = slides ? Vector3d(slip / amount) : Vector3d(slip / dc);
+  Contact::Response
+  Contact::evaluate(const unsigned point, const unsigned t, const Vector3d &x, const Options &options)
+  {
+    const ContactTool &rigid  = tool[t];
+    Pair              &now    = pair[t][point];
+    Response           result;
+    now.trial_pressure = 0;
+    now.trial_slides   = false;
+    now.trial_slip = now.trial_traction = now.trial_sliding = Vector3d::Zero();
+    // A distance changes by no more than the point moves.
+    const Vector3d seen_from_tool = x - rigid.place;
+    if (now.reach > 0 && (seen_from_tool - now.seen_at).squaredNorm() < now.reach * now.reach)
+      {
+        now.trial_penetration = -1e300;
+        return result;
+      }
+    const ToolDistance at = rigid.distance(x);
+    now.seen_at           = seen_from_tool;
+    now.reach             = at.distance - half_thickness[point] - settings.transition;
+    now.trial_penetration = half_thickness[point] - at.distance;
+    if (options.frozen ? now.pressure == 0 : now.reach >= 0)
+      return result;
 
-    n.trial_pressure = p;
-    n.trial_sliding  = sliding;
-    n.trial_slides   = slides;
-    n.trial_slip     = slides ? Vector3d(dc * direction) : slip;
-    n.trial_traction = -weight * friction * p * direction;
-    force            = weight * p * at.normal + n.trial_traction;
+    const double   w        = area[point], dc = settings.stick_slip;
+    const Law      normal   = law(now.trial_penetration);
+    const double   p        = normal.pressure;
+    const Law      mu       = friction_at(law_of_friction[static_cast<int>(rigid.face)], point, p);
+    const Vector3d &n       = at.normal;
+    const Matrix3d P        = Matrix3d::Identity() - n * n.transpose();
+    const Vector3d moved    = x - committed_position[point] - rigid.motion();
+    const Vector3d whole    = now.slip + moved; // its tangential part is the trial slip
+    const Vector3d slip     = P * whole;
+    const double   amount   = slip.norm();
+    const bool     slides   = amount > dc;
+    Vector3d       direction = slides ? Vector3d(slip / amount) : Vector3d(slip / dc);
 
-    K = weight * (response.stiffness * at.normal * at.normal.transpose() - p * at.curvature);
-    if (options.frozen && n.slid)
+    result.touches     = p > 0;
+    now.trial_pressure = p;
+    now.trial_sliding  = P * moved;
+    now.trial_slides   = slides;
+    now.trial_slip     = slides ? Vector3d(dc * direction) : slip;
+    now.trial_traction = -w * mu.pressure * p * direction;
+    result.force       = w * p * n + now.trial_traction;
+    result.stiffness   = w * (normal.stiffness * n * n.transpose() - p * at.curvature);
+    if (options.frozen && now.slid)
       {
         // sliding goes on in the direction of the last increment
-        const Vector3d d = n.slip.norm() > 0 ? Vector3d((P * n.slip) / (P * n.slip).norm()) : Vector3d::Zero();
-        K += weight * friction * p / (n.last_slide + dc) * (P - d * d.transpose());
-        K -= weight * friction * response.stiffness * d * at.normal.transpose();
+        const Vector3d last = P * now.slip;
+        direction           = last.norm() > 0 ? Vector3d(last.normalized()) : Vector3d::Zero();
+        result.stiffness += w * mu.pressure * p / (now.last_slide + dc) * (P - direction * direction.transpose());
       }
     else
       {
-        K += weight * friction * p / (slides ? amount : dc) * (slides ? Matrix3d(P - direction * direction.transpose()) : P);
-        K -= weight * friction * response.stiffness * direction * at.normal.transpose();
+        // the tangent plane turns with the normal
+        const Vector3d turn    = at.curvature * whole;
+        const Matrix3d by_place = P - whole.dot(n) * at.curvature - n * turn.transpose();
+        const Matrix3d by_slip  = slides ? Matrix3d((Matrix3d::Identity() - direction * direction.transpose()) / amount) : Matrix3d(Matrix3d::Identity() / dc);
+        result.stiffness += w * mu.pressure * p * by_slip * by_place;
       }
-  }
-
-  void
-  Contact::add_tangent(SparseMatrix &tangent, const unsigned node, const ContactTool &t, const Matrix3d &K) const
-  {
-    for (unsigned i = 0; i < 3; ++i)
-      for (unsigned j = 0; j < 3; ++j)
-        tangent.add(static_cast<int>(sheet.dof(node, i)), static_cast<int>(sheet.dof(node, j)), K(i, j));
-    if (t.free_index < 0)
-      return;
-    const int extra = static_cast<int>(sheet.n_dofs()) + t.free_index;
-    for (unsigned i = 0; i < 3; ++i)
-      {
-        tangent.add(static_cast<int>(sheet.dof(node, i)), extra, -K.row(i).dot(t.axis));
-        tangent.add(extra, static_cast<int>(sheet.dof(node, i)), -K.col(i).dot(t.axis));
-      }
-    tangent.add(extra, extra, t.axis.dot(K * t.axis));
+    result.stiffness -= w * (mu.pressure + p * mu.stiffness) * normal.stiffness * direction * n.transpose();
+    return result;
   }
 
   void
   Contact::assemble(Eigen::VectorXd             &residual,
-                    SparseMatrix                *tangent,
+                    Tangent                     *tangent,
                     const Options               &options,
                     const std::vector<Vector3d> *motion,
                     Eigen::VectorXd             *tool_sensitivity)
   {
+    const auto n_dofs = static_cast<Eigen::Index>(sheet.n_dofs());
     if (tool_sensitivity)
       tool_sensitivity->setZero(residual.size());
     scale = 0;
-    std::fill(node_force.begin(), node_force.end(), Vector3d::Zero());
-    const bool adds_tangent = tangent && parallel::rank() == 0;
-    for (unsigned t = 0; t < tool.size(); ++t)
+    sheet_force.setZero();
+    std::fill(tool_force.begin(), tool_force.end(), Vector3d::Zero());
+    for (unsigned point = 0; point < points.size(); ++point)
       {
-        tool_force[t].setZero();
-        const int extra = tool[t].free_index < 0 ? -1 : static_cast<int>(sheet.n_dofs()) + tool[t].free_index;
-        for (unsigned node = 0; node < sheet.n_nodes(); ++node)
+        const Vector3d            x       = points.position(sheet.trial(), point);
+        bool                      touches = false;
+        ContactPoints::Derivative G;
+        for (unsigned t = 0; t < tool.size(); ++t)
           {
-            Vector3d force;
-            Matrix3d K;
-            double   weight;
-            evaluate(node, t, options, force, K, weight);
-            if (pair[t][node].trial_pressure == 0)
+            const Response response = evaluate(point, t, x, options);
+            if (!response.touches)
               continue;
-            scale += force.norm();
-            tool_force[t] -= force;
-            node_force[node] += force;
-            for (unsigned i = 0; i < 3; ++i)
-              residual[sheet.dof(node, i)] -= force[i];
-            if (extra >= 0)
-              residual[extra] += force.dot(tool[t].axis);
+            if (!touches)
+              G = points.derivative(sheet.trial(), point);
+            touches = true;
+            scale += response.force.norm();
+            tool_force[t] -= response.force;
+            points.add_force(G, point, response.force, 1., sheet_force);
             if (tool_sensitivity && motion)
-              for (unsigned i = 0; i < 3; ++i)
-                (*tool_sensitivity)[sheet.dof(node, i)] -= K.row(i).dot((*motion)[t]);
-            if (adds_tangent)
-              add_tangent(*tangent, node, tool[t], K);
+              points.add_force(G, point, response.stiffness * (*motion)[t], -1., tool_sensitivity->head(n_dofs));
+            if (tool[t].free_index >= 0)
+              {
+                const auto      extra = tool[t].free_index;
+                const Vector3d &axis  = tool[t].axis;
+                residual[n_dofs + extra] += response.force.dot(axis);
+                if (tool_sensitivity && motion)
+                  (*tool_sensitivity)[n_dofs + extra] += axis.dot(response.stiffness * (*motion)[t]);
+                if (tangent)
+                  {
+                    points.add_force(G, point, response.stiffness * axis, -1., tangent->column.col(extra));
+                    points.add_force(G, point, response.stiffness.transpose() * axis, -1., tangent->row.col(extra));
+                    tangent->corner(extra, extra) += axis.dot(response.stiffness * axis);
+                  }
+              }
+            if (tangent && parallel::rank() == 0)
+              points.add_tangent(sheet.trial(), G, point, response.force, response.stiffness, tangent->sheet);
           }
       }
+    residual.head(n_dofs) -= sheet_force;
   }
 
   Loads
@@ -197,132 +280,29 @@ namespace tribodraw
   {
     Loads loads;
     for (unsigned node = 0; node < sheet.n_nodes(); ++node)
-      if (node_force[node].squaredNorm() > 0)
-        loads.add_point_force(node, node_force[node]);
+      {
+        const Eigen::Matrix<double, 5, 1> force = sheet_force.segment<5>(sheet.dof(node, 0));
+        const Vector3d                   &d     = sheet.trial().director[node];
+        const auto                       &frame = sheet.trial().frame[node];
+        if (force.head<3>().squaredNorm() > 0)
+          loads.add_point_force(node, force.head<3>());
+        // a moment m works m . (d x e_t) on a director increment along e_t
+        if (force.tail<2>().squaredNorm() > 0)
+          loads.add_point_moment(node, force[3] * d.cross(frame[0]) + force[4] * d.cross(frame[1]));
+      }
     return loads;
   }
 
-  void
-  Contact::commit()
+  bool
+  Contact::stiffen()
   {
-    stored = -energy_at_start;
-    for (auto &f : faces)
-      {
-        std::fill(f.pressure.begin(), f.pressure.end(), 0.);
-        std::fill(f.tool.begin(), f.tool.end(), -1);
-        std::fill(f.gap.begin(), f.gap.end(), 1e300);
-        std::fill(f.slip.begin(), f.slip.end(), Vector3d::Zero());
-      }
-    for (unsigned t = 0; t < tool.size(); ++t)
-      {
-        FaceState &f = faces[static_cast<int>(tool[t].face)];
-        for (unsigned i = 0; i < sheet.n_nodes(); ++i)
-          {
-            NodeTool &n = pair[t][i];
-            // trapezoidal rule: traction before and after the increment
-            dissipated -= 0.5 * (n.traction + n.trial_traction).dot(n.trial_sliding);
-            stored += area[i] * energy(n.trial_penetration);
-            f.gap[i] = std::min(f.gap[i], -n.trial_penetration);
-            if (n.trial_pressure > f.pressure[i])
-              {
-                f.pressure[i] = n.trial_pressure;
-                f.tool[i]     = static_cast<int>(t);
-                f.slip[i]     = n.trial_sliding;
-              }
-            n.pressure   = n.trial_pressure;
-            n.slip       = n.trial_slip;
-            n.traction   = n.trial_traction;
-            n.slid       = n.trial_slides;
-            n.last_slide = n.trial_sliding.norm();
-          }
-        tool[t].committed_place = tool[t].place;
-      }
-    area = sheet.node_current_area();
-    for (unsigned i = 0; i < sheet.n_nodes(); ++i)
-      half_thickness[i] = 0.5 * sheet.node_thickness()[i];
-  }
-
-  double
-  Contact::max_penetration() const
-  {
-    double largest = 0;
-    for (const auto &f : faces)
-      for (std::size_t i = 0; i < f.gap.size(); ++i)
-        if (f.tool[i] >= 0)
-          largest = std::max(largest, -f.gap[i]);
-    return largest;
-  }
-
-  void
-  Contact::save(Archive &archive) const
-  {
-    std::vector<double> values;
-    for (unsigned t = 0; t < tool.size(); ++t)
-      {
-        values.clear();
-        for (int i = 0; i < 3; ++i)
-          values.push_back(tool[t].committed_place[i]);
-        for (const auto &n : pair[t])
-          {
-            for (int i = 0; i < 3; ++i)
-              values.push_back(n.slip[i]);
-            for (int i = 0; i < 3; ++i)
-              values.push_back(n.traction[i]);
-            values.push_back(n.pressure);
-            values.push_back(n.last_slide);
-            values.push_back(n.slid);
-          }
-        archive.put("contact/tool " + std::to_string(t), values);
-      }
-    for (unsigned f = 0; f < n_faces; ++f)
-      {
-        const std::string name = "contact/face " + std::to_string(f);
-        archive.put(name + " friction", mu[f]);
-        archive.put(name + " pressure", faces[f].pressure);
-        archive.put(name + " gap", faces[f].gap);
-        std::vector<double> touching(faces[f].tool.begin(), faces[f].tool.end());
-        archive.put(name + " tool", touching);
-      }
-    archive.put("contact/area", area);
-    archive.put("contact/half thickness", half_thickness);
-    archive.put("contact/energies", std::vector<double>{dissipated, stored, energy_at_start});
-  }
-
-  void
-  Contact::load(const Archive &archive)
-  {
-    for (unsigned t = 0; t < tool.size(); ++t)
-      {
-        const auto &values = archive.numbers("contact/tool " + std::to_string(t), 3 + 9 * pair[t].size());
-        std::size_t k      = 0;
-        for (int i = 0; i < 3; ++i)
-          tool[t].place[i] = tool[t].committed_place[i] = values[k++];
-        for (auto &n : pair[t])
-          {
-            for (int i = 0; i < 3; ++i)
-              n.slip[i] = values[k++];
-            for (int i = 0; i < 3; ++i)
-              n.traction[i] = values[k++];
-            n.pressure   = values[k++];
-            n.last_slide = values[k++];
-            n.slid       = values[k++] != 0;
-          }
-      }
-    for (unsigned f = 0; f < n_faces; ++f)
-      {
-        const std::string name = "contact/face " + std::to_string(f);
-        mu[f]                  = archive.numbers(name + " friction", sheet.n_nodes());
-        faces[f].pressure      = archive.numbers(name + " pressure", sheet.n_nodes());
-        faces[f].gap           = archive.numbers(name + " gap", sheet.n_nodes());
-        const auto &touching   = archive.numbers(name + " tool", sheet.n_nodes());
-        for (std::size_t i = 0; i < touching.size(); ++i)
-          faces[f].tool[i] = static_cast<int>(touching[i]);
-      }
-    area           = archive.numbers("contact/area", sheet.n_nodes());
-    half_thickness = archive.numbers("contact/half thickness", sheet.n_nodes());
-    const auto &energies = archive.numbers("contact/energies", 3);
-    dissipated           = energies[0];
-    stored               = energies[1];
-    energy_at_start      = energies[2];
+    double penetration = 0;
+    for (const auto &of_tool : pair)
+      for (const Pair &p : of_tool)
+        penetration = std::max(penetration, p.trial_penetration);
+    if (!automatic || penetration <= deepest_allowed)
+      return false;
+    settings.stiffness *= 1.25 * penetration / deepest_allowed; // pressures grow on
+    return true;
   }
 } // namespace tribodraw

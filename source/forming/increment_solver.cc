@@ -3,6 +3,8 @@
 #include <tribodraw/base/timing.h>
 #include <tribodraw/forming/increment_solver.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,12 +27,12 @@ namespace tribodraw
   SolverSettings::read(Parameters &p)
   {
     SolverSettings s;
-    s.contact.stiffness = p.quantity("Contact stiffness", "MPa/mm", Range::positive().usual(10, 1e5),
-                                     "Pressure per penetration of a tool.",
-                                     Default{"1000 MPa/mm", "penetration stays near 0.01 mm in the flange and 0.1 mm at the die radius, and Newton's method converges well"});
-    s.contact.transition = p.quantity("Contact transition", "mm", Range::positive().usual(1e-4, 0.2),
-                                      "Half width of the gap range over which contact pressure sets in quadratically.",
-                                      Default{"0.02 mm", "a quarter of the iterations less than with 0.005 mm at the same result"});
+    s.contact.stiffness = p.quantity("Contact stiffness", "MPa/mm", Range::between(0, 1e7),
+                                     "Pressure per penetration of a tool; 0: automatic, so that no penetration exceeds 3 % of the thickness.",
+                                     Default{"0 MPa/mm", "from the modulus and the thickness of the sheet, raised where the pressure needs it"});
+    s.contact.transition = p.quantity("Contact transition", "mm", Range::between(0, 1),
+                                      "Half width of the gap range over which contact pressure sets in quadratically; 0: automatic, 2.5 % of the thickness.",
+                                      Default{"0 mm", "the softer the onset, the fewer iterations"});
     s.contact.stick_slip = p.quantity("Elastic slip", "mm", Range::positive().usual(1e-4, 0.2),
                                       "Relative displacement over which friction builds up to its full value.",
                                       Default{"0.01 mm", "small against the sliding in one increment; the result does not depend on it"});
@@ -65,7 +67,7 @@ namespace tribodraw
     , settings(solver_settings)
     , fixed(std::move(fixed_unknowns))
     , n_free(n_free_tools)
-    , K(sheet.make_matrix(n_free_tools))
+    , K(sheet, n_free_tools)
     , solver(DirectSolver::Symmetry::unsymmetric)
     , R(Eigen::VectorXd::Zero(sheet.n_dofs() + n_free_tools))
     , reaction(Eigen::VectorXd::Zero(sheet.n_dofs()))
@@ -86,16 +88,24 @@ namespace tribodraw
         tools[t].place = tools[t].committed_place + free_travel[tools[t].free_index] * tools[t].axis;
   }
 
+  void
+  IncrementSolver::add_travels()
+  {
+    R.conservativeResize(n_unknowns());
+    R.tail(n_free).setZero();
+  }
+
   bool
   IncrementSolver::evaluate(const Load &load, const Shell::AssemblyOptions &options)
   {
     K.set_zero();
-    if (!shell.assemble(load.dt, options, R, &K))
+    if (!shell.assemble(load.dt, options, R, &K.sheet))
       return false;
+    add_travels();
     load_scale = 0;
     for (const Load::External &e : load.external)
       {
-        e.loads->subtract(shell, e.after, R, &K);
+        e.loads->subtract(shell, e.after, R, &K.sheet);
         load_scale += std::max(std::abs(e.before), std::abs(e.after)) * e.loads->forces(shell).lpNorm<1>();
       }
     if (settings.viscosity > 0)
@@ -131,7 +141,7 @@ namespace tribodraw
             const auto i = static_cast<int>(shell.dof(node, c));
             R[i] += resistance * (now[node][c] - before[node][c]);
             if (parallel::rank() == 0)
-              K.add(i, i, resistance);
+              K.sheet.add(i, i, resistance);
           }
       }
   }
@@ -186,11 +196,12 @@ namespace tribodraw
     Shell::AssemblyOptions options;
     options.loading_tangent = true;
     K.set_zero();
-    if (!shell.assemble(without_rate, options, R, &K))
+    if (!shell.assemble(without_rate, options, R, &K.sheet))
       return false;
+    add_travels();
     set_tools(load, false);
     // The committed state is in equilibrium: only what moves or loads it is unbalanced.
-    Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(K.size());
+    Eigen::VectorXd unbalanced = Eigen::VectorXd::Zero(n_unknowns());
     if (load.contact)
       {
         Contact::Options frozen;
@@ -200,27 +211,23 @@ namespace tribodraw
     for (const Load::External &e : load.external)
       {
         e.loads->subtract(shell, e.after - e.before, unbalanced, nullptr);
-        e.loads->subtract(shell, e.before, R, &K);
+        e.loads->subtract(shell, e.before, R, &K.sheet);
       }
-    Eigen::VectorXd given = Eigen::VectorXd::Zero(K.size());
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(n_unknowns());
     if (load.prescribed.size())
       {
         given.head(shell.n_dofs()) = load.prescribed;
-        std::vector<double> forces(K.size());
-        Eigen::Map<Eigen::VectorXd>(forces.data(), K.size()) = K.multiply(given);
+        const Eigen::VectorXd own = K.sheet.multiply(load.prescribed);
+        std::vector<double>   forces(own.data(), own.data() + own.size());
         parallel::sum(forces);
-        unbalanced += Eigen::Map<const Eigen::VectorXd>(forces.data(), K.size());
+        unbalanced.head(shell.n_dofs()) += Eigen::Map<const Eigen::VectorXd>(forces.data(), shell.n_dofs());
+        unbalanced.tail(n_free) += K.row.transpose() * load.prescribed;
       }
     du = -unbalanced;
-    K.eliminate(held, parallel::rank() == 0 ? 1. : 0.);
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i])
         du[i] = 0;
-    const timing::Scope scope("forming/linear solver");
-    if (!solver.factor(K))
-      return false;
-    solver.solve(du);
-    if (!du.allFinite())
+    if (!solve_linear(du))
       return false;
     double travel = largest_displacement(given);
     for (const Eigen::Vector3d &m : load.motion)
@@ -232,6 +239,39 @@ namespace tribodraw
       limit(du);
     du += given;
     return true;
+  }
+
+  bool
+  IncrementSolver::solve_linear(Eigen::VectorXd &b)
+  {
+    const timing::Scope scope("forming/linear solver");
+    const unsigned      n = shell.n_dofs();
+    std::vector<bool>   held_sheet(held.begin(), held.begin() + n);
+    K.sheet.eliminate(held_sheet, parallel::rank() == 0 ? 1. : 0.);
+    if (!solver.factor(K.sheet))
+      return false;
+    Eigen::VectorXd sheet = b.head(n);
+    solver.solve(sheet);
+    b.head(n) = sheet;
+    if (n_free > 0 && !held[n])
+      {
+        // the travels of the free tools border the matrix
+        Eigen::MatrixXd by_travel(n, n_free);
+        for (unsigned i = 0; i < n; ++i)
+          if (held[i])
+            K.column.row(i).setZero(), K.row.row(i).setZero();
+        for (unsigned f = 0; f < n_free; ++f)
+          {
+            sheet = K.column.col(f);
+            solver.solve(sheet);
+            by_travel.col(f) = sheet;
+          }
+        const Eigen::MatrixXd schur  = K.corner - K.row.transpose() * by_travel;
+        const Eigen::VectorXd travel = schur.fullPivLu().solve(b.tail(n_free) - K.row.transpose() * b.head(n));
+        b.head(n) -= by_travel * travel;
+        b.tail(n_free) = travel;
+      }
+    return b.allFinite();
   }
 
   bool
@@ -319,7 +359,7 @@ namespace tribodraw
       return outcome;
     };
 
-    Eigen::VectorXd given = Eigen::VectorXd::Zero(K.size());
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(n_unknowns());
     if (load.prescribed.size())
       given.head(shell.n_dofs()) = load.prescribed;
     Eigen::VectorXd du;
@@ -337,16 +377,9 @@ namespace tribodraw
     unsigned since_progress = 0;
     for (outcome.iterations = 1; outcome.iterations <= settings.max_iterations; ++outcome.iterations)
       {
-        K.eliminate(held, parallel::rank() == 0 ? 1. : 0.);
-        {
-          const timing::Scope scope("forming/linear solver");
-          if (!solver.factor(K))
-            return give_up("the tangent is singular");
-          du = -R;
-          solver.solve(du);
-        }
-        if (!du.allFinite())
-          return give_up("the linear solver gave no finite correction");
+        du = -R;
+        if (!solve_linear(du))
+          return give_up("the tangent is singular");
         limit(du);
         const bool far        = norm > far_from_solution * force_scale();
         options.tension_only  = far;
@@ -357,6 +390,14 @@ namespace tribodraw
         outcome.residual   = norm / force_scale();
         if (outcome.residual < settings.residual_tolerance && outcome.correction < settings.displacement_tolerance)
           {
+            if (load.contact && contact.stiffen())
+              {
+                if (!evaluate(load, options))
+                  return give_up("a material point or an element cannot follow the increment");
+                norm = best = R.norm();
+                since_progress = 0;
+                continue;
+              }
             outcome.converged = true;
             account(load, loads_before, reaction_before, outcome);
             return outcome;

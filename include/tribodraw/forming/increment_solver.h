@@ -78,6 +78,7 @@ namespace tribodraw
 
   private:
     bool   evaluate(const Load &load, const Shell::AssemblyOptions &options);
+    Eigen::Index n_unknowns() const { return static_cast<Eigen::Index>(shell.n_dofs() + n_free); }
     void   resist_motion(double dt);
     double force_scale() const;
     bool   predict(const Load &load, Eigen::VectorXd &du);
@@ -87,6 +88,8 @@ namespace tribodraw
     void   apply(const Eigen::VectorXd &du, double factor);
     void   limit(Eigen::VectorXd &du) const;
     double largest_displacement(const Eigen::VectorXd &du) const;
+    void   add_travels();
+    bool   solve_linear(Eigen::VectorXd &b);
     bool   line_search(const Load &load, const Shell::AssemblyOptions &options, const Eigen::VectorXd &du, double &norm);
     void   set_tools(const Load &load, bool at_end);
 
@@ -95,7 +98,7 @@ namespace tribodraw
     const SolverSettings &settings;
     std::vector<bool>     fixed, held; // held: fixed, and the free tools while they are away
     unsigned              n_free;
-    SparseMatrix          K;
+    Contact::Tangent      K;
     DirectSolver          solver;
     Eigen::VectorXd       R, reaction;
     std::vector<double>   free_travel; // of each free tool along its axis in this increment [mm]
