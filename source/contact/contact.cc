@@ -17,6 +17,17 @@ namespace tribodraw
     /// steel. Pressures on tool radii are fractions of the flow stress, which is 1/1000 to 1/200 of E.
     constexpr double relative_transition = 0.025, relative_pressure = 1. / 2000;
 
+    /// Length of an arc by that of its projection on the tangent at its end, from the normals at its ends: what a point
+    /// slides over a radius in one increment.
+    double
+    along_arc(const Vector3d &start, const Vector3d &end)
+    {
+      const double cosine = std::min(1., start.dot(end));
+      if (start.squaredNorm() == 0 || cosine > 1 - 1e-8 || cosine < 0.2)
+        return 1;
+      return std::acos(cosine) / std::sqrt(1 - cosine * cosine);
+    }
+
     /// E/(1-nu), from the forces that a small equibiaxial stretch of the whole sheet needs.
     double
     equibiaxial_modulus(Shell &shell)
@@ -168,10 +179,10 @@ namespace tribodraw
     Response           result;
     now.trial_pressure = 0;
     now.trial_slides   = false;
-    now.trial_slip = now.trial_traction = now.trial_sliding = Vector3d::Zero();
+    now.trial_slip = now.trial_traction = now.trial_sliding = now.trial_normal = Vector3d::Zero();
     // A distance changes by no more than the point moves.
     const Vector3d seen_from_tool = x - rigid.place;
-    if (now.reach > 0 && (seen_from_tool - now.seen_at).squaredNorm() < now.reach * now.reach)
+    if (now.reach > 0 && now.pressure == 0 && (seen_from_tool - now.seen_at).squaredNorm() < now.reach * now.reach)
       {
         now.trial_penetration = -1e300;
         return result;
@@ -180,16 +191,21 @@ namespace tribodraw
     now.seen_at           = seen_from_tool;
     now.reach             = at.distance - half_thickness[point] - settings.transition;
     now.trial_penetration = half_thickness[point] - at.distance;
-    if (options.frozen ? now.pressure == 0 : now.reach >= 0)
+    const Vector3d &n     = at.normal;
+    const Matrix3d  P     = Matrix3d::Identity() - n * n.transpose();
+    const Vector3d  moved = x - committed_position[point] - rigid.motion();
+    const bool      far   = options.frozen ? now.pressure == 0 : now.reach >= 0;
+    if (far && now.pressure == 0)
+      return result;
+    now.trial_normal  = n;
+    now.trial_sliding = along_arc(now.normal, n) * (P * moved);
+    if (far)
       return result;
 
     const double   w        = area[point], dc = settings.stick_slip;
     const Law      normal   = law(now.trial_penetration);
     const double   p        = normal.pressure;
     const Law      mu       = friction_at(law_of_friction[static_cast<int>(rigid.face)], point, p);
-    const Vector3d &n       = at.normal;
-    const Matrix3d P        = Matrix3d::Identity() - n * n.transpose();
-    const Vector3d moved    = x - committed_position[point] - rigid.motion();
     const Vector3d whole    = now.slip + moved; // its tangential part is the trial slip
     const Vector3d slip     = P * whole;
     const double   amount   = slip.norm();
@@ -198,7 +214,6 @@ namespace tribodraw
 
     result.touches     = p > 0;
     now.trial_pressure = p;
-    now.trial_sliding  = P * moved;
     now.trial_slides   = slides;
     now.trial_slip     = slides ? Vector3d(dc * direction) : slip;
     now.trial_traction = -w * mu.pressure * p * direction;

@@ -23,6 +23,14 @@ namespace tribodraw
     }
   } // namespace
 
+  Vector3d
+  Contact::Pair::traction_on(const Vector3d &end) const
+  {
+    const Vector3d projected = traction - traction.dot(end) * end;
+    const double   length    = projected.norm();
+    return length > 0 ? Vector3d(traction.norm() / length * projected) : Vector3d::Zero();
+  }
+
   void
   Contact::commit()
   {
@@ -35,13 +43,14 @@ namespace tribodraw
           {
             Pair &n = pair[t][point];
             // trapezoidal rule: traction before and after the increment
-            dissipated -= 0.5 * (n.traction + n.trial_traction).dot(n.trial_sliding);
+            dissipated -= 0.5 * (n.traction_on(n.trial_normal) + n.trial_traction).dot(n.trial_sliding);
             stored += area[point] * energy(n.trial_penetration);
             if (n.trial_pressure > 0)
               deepest = std::max(deepest, n.trial_penetration);
             n.pressure   = n.trial_pressure;
             n.slip       = n.trial_slip;
             n.traction   = n.trial_traction;
+            n.normal     = n.trial_normal;
             n.slid       = n.trial_slides;
             n.last_slide = n.trial_sliding.norm();
             n.reach      = 0; // thickness changes
@@ -109,6 +118,7 @@ namespace tribodraw
           {
             append(values, p.slip);
             append(values, p.traction);
+            append(values, p.normal);
             values.push_back(p.pressure);
             values.push_back(p.last_slide);
             values.push_back(p.slid);
@@ -141,13 +151,14 @@ namespace tribodraw
     measure_sheet();
     for (unsigned t = 0; t < tool.size(); ++t)
       {
-        const auto &values = archive.numbers("contact/tool " + std::to_string(t), 3 + 9 * pair[t].size());
+        const auto &values = archive.numbers("contact/tool " + std::to_string(t), 3 + 12 * pair[t].size());
         std::size_t k      = 0;
         tool[t].place = tool[t].committed_place = take(values, k);
         for (Pair &p : pair[t])
           {
             p.slip       = take(values, k);
             p.traction   = take(values, k);
+            p.normal     = take(values, k);
             p.pressure   = values[k++];
             p.last_slide = values[k++];
             p.slid       = values[k++] != 0;

@@ -55,7 +55,7 @@ namespace tribodraw
       double stick_slip = 0; ///< dc [mm]
     };
     /// Penetration above which an automatic stiffness is raised, by the thickness.
-    static constexpr double largest_relative_penetration = 0.025;
+    static constexpr double largest_relative_penetration = 0.028;
 
     /// @param shell its trial state is used for a moment, and left as committed
     Contact(Shell &shell, std::vector<ContactTool> tools, const Settings &settings);
@@ -132,13 +132,16 @@ namespace tribodraw
     {
       Eigen::Vector3d slip       = Eigen::Vector3d::Zero(); ///< committed elastic slip
       Eigen::Vector3d traction   = Eigen::Vector3d::Zero(); ///< committed friction force [N]
+      Eigen::Vector3d normal     = Eigen::Vector3d::Zero(); ///< committed, of a tool in touch
       double          pressure   = 0;                       ///< committed [MPa]
       double          last_slide = 0;                       ///< |sliding| of the last committed increment [mm]
       bool            slid       = false;
       // trial values of the last assemble()
-      Eigen::Vector3d trial_slip = Eigen::Vector3d::Zero(), trial_traction = Eigen::Vector3d::Zero(), trial_sliding = Eigen::Vector3d::Zero();
+      Eigen::Vector3d trial_slip = Eigen::Vector3d::Zero(), trial_traction = Eigen::Vector3d::Zero(), trial_sliding = Eigen::Vector3d::Zero(), trial_normal = Eigen::Vector3d::Zero();
       double          trial_pressure = 0, trial_penetration = -1e300;
       bool            trial_slides   = false;
+      /// Committed traction, turned from the committed tangent plane into that of @p normal.
+      Eigen::Vector3d traction_on(const Eigen::Vector3d &end) const;
       // how far the point can go before it may touch
       Eigen::Vector3d seen_at = Eigen::Vector3d::Zero();
       double          reach   = 0;

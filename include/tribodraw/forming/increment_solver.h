@@ -1,7 +1,7 @@
 #ifndef tribodraw_forming_increment_solver_h
 #define tribodraw_forming_increment_solver_h
 
-#include <tribodraw/contact/contact.h>
+#include <tribodraw/forming/tangent_solver.h>
 #include <tribodraw/shell/loads.h>
 #include <tribodraw/shell/shell.h>
 
@@ -89,7 +89,6 @@ namespace tribodraw
     void   limit(Eigen::VectorXd &du) const;
     double largest_displacement(const Eigen::VectorXd &du) const;
     void   add_travels();
-    bool   solve_linear(Eigen::VectorXd &b);
     bool   line_search(const Load &load, const Shell::AssemblyOptions &options, const Eigen::VectorXd &du, double &norm);
     void   set_tools(const Load &load, bool at_end);
 
@@ -99,7 +98,7 @@ namespace tribodraw
     std::vector<bool>     fixed, held; // held: fixed, and the free tools while they are away
     unsigned              n_free;
     Contact::Tangent      K;
-    DirectSolver          solver;
+    TangentSolver         solver;
     Eigen::VectorXd       R, reaction;
     std::vector<double>   free_travel; // of each free tool along its axis in this increment [mm]
     double                load_scale = 0, support_scale = 0;
