@@ -121,22 +121,4 @@ namespace tribodraw
   {
     return "punch with edge radius " + mm(edge) + " and the outline: " + wall->describe();
   }
-
-  double
-  plan_clearance(const ToolGeometry &die, const ToolGeometry &punch, const double extent, const double spacing)
-  {
-    // Far from the rounded edges both distances are those of the walls. Where their sum is smallest the point
-    // lies on the shortest line between the walls.
-    const double depth    = 10 * extent;
-    const auto   n        = static_cast<long>(std::ceil(extent / spacing));
-    double       smallest = std::numeric_limits<double>::infinity();
-    for (long i = 0; i <= n; ++i)
-      for (long j = 0; j <= n; ++j)
-        {
-          const double x = i * extent / n, y = j * extent / n;
-          smallest
-              = std::min(smallest, die.distance({ x, y, -depth }).distance + punch.distance({ x, y, depth }).distance);
-        }
-    return smallest;
-  }
 } // namespace tribodraw

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <queue>
 
@@ -136,6 +137,20 @@ namespace tribodraw
           step *= 0.5;
       }
     return best;
+  }
+
+  std::string
+  implausible_size(const ToolGeometry &shape, const double blank_side)
+  {
+    const Vector3d size   = shape.extent().sizes();
+    const double   larger = size.head<2>().maxCoeff(), ratio = larger / blank_side;
+    if (std::isinf(larger) || (ratio > 1. / 30 && ratio < 30))
+      return "";
+    char text[160];
+    std::snprintf(text, sizeof(text),
+                  "its surface is %.3g x %.3g x %.3g mm, for a blank of %.4g mm: is its unit of length right?", size[0],
+                  size[1], size[2], blank_side);
+    return text;
   }
 
   double

@@ -52,11 +52,6 @@ namespace tribodraw
     std::shared_ptr<const Outline> wall;
     double                         edge;
   };
-
-  /// Smallest distance in plan between the walls of a die and a punch [mm], both centred; negative if they overlap.
-  /// Sampled on a grid of the first quadrant up to @p extent with @p spacing, never below the true value where that
-  /// is positive and at most 2 @p spacing above it.
-  double plan_clearance(const ToolGeometry &die, const ToolGeometry &punch, double extent, double spacing);
 } // namespace tribodraw
 
 #endif

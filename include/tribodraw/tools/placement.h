@@ -4,6 +4,7 @@
 #include <tribodraw/tools/tool_geometry.h>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace tribodraw
@@ -51,6 +52,10 @@ namespace tribodraw
   /// 1.8 @p spacing; at smooth surfaces the error is of second order in the spacing.
   Clearance smallest_clearance(const PlacedTool &a, const PlacedTool &b, const Eigen::Vector3d &low,
                                const Eigen::Vector3d &high, double spacing);
+
+  /// What is wrong with the size of a tool whose surface has bounds, compared with the larger side of the blank [mm]:
+  /// in plan it is a thirtieth of it or less, or thirty times it or more. Empty if nothing is.
+  std::string implausible_size(const ToolGeometry &shape, double blank_side);
 
   /// Number of elements of a given size [mm] along the quarter circle of the tool's smallest convex radius;
   /// infinity for a plane.

@@ -11,6 +11,8 @@
 
 namespace tribodraw
 {
+  struct CornerNormals;
+
   /// A tool given by triangles, smoothed: each triangle is replaced by a curved patch through its corners, and the
   /// patches join with common tangent planes. The distance is exactly that to the patches; the nearest is found in a
   /// tree of boxes. So the distance is as continuous as for a formula, and its normal jumps at sharp edges only.
@@ -29,8 +31,7 @@ namespace tribodraw
     SmoothSurface(const TriangleMesh &mesh, const Options &options);
 
     ToolDistance distance(const Eigen::Vector3d &x) const override;
-    /// Of the convex curvature that a tenth of the curved area exceeds: not of the places where the smoothing
-    /// overshoots.
+    /// From the turn of the normal along the sharpest convex edges; good to a tenth.
     double
     smallest_radius() const override
     {
@@ -95,12 +96,12 @@ namespace tribodraw
     Eigen::AlignedBox3d all;
     std::string         name;
     std::size_t         n_border_edges = 0;
-    double              radius         = 0;
+    double              radius         = std::numeric_limits<double>::infinity();
 
-    void        make_patches(const TriangleMesh &mesh, const Options &options);
+    void        make_patches(const TriangleMesh &mesh, const MeshTopology &topology, const CornerNormals &normals);
     void        make_boxes();
     void        split(unsigned box, std::vector<unsigned> &order, const std::vector<Eigen::AlignedBox3d> &around);
-    double      find_smallest_radius() const;
+    void        find_smallest_radius(const TriangleMesh &mesh, const CornerNormals &normals);
     Foot        nearest(const Eigen::Vector3d &x) const;
     static void approach(const Eigen::Vector3d &x, Foot &foot);
     static ToolDistance at_foot(const Eigen::Vector3d &x, const Foot &foot);

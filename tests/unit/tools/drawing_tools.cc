@@ -288,16 +288,6 @@ TEST(DrawingTools, SmallestRadiusIsTheOneTheMeshMustResolve)
   EXPECT_TRUE(std::isinf(Plane(Facing::up).smallest_radius()));
 }
 
-TEST(DrawingTools, PlanClearanceIsTheGapBetweenTheWalls)
-{
-  // Parallel walls: the sum of both distances is the gap at every point, so that sampling adds no error.
-  EXPECT_NEAR(plan_clearance(cross_die, cross_punch, 100, 1), clearance, 1e-10);
-  EXPECT_NEAR(plan_clearance(square_die, square_punch, 60, 1), 2, 1e-10);
-  // A punch of 80 in the opening of 74: overlap 3 on each side.
-  const DrawingPunch wide(std::make_shared<RoundedRectangleOutline>(40, 40, 15), 8);
-  EXPECT_NEAR(plan_clearance(square_die, wide, 60, 1), -3, 1e-10);
-}
-
 TEST(DrawingTools, BlankHolderFacesDown)
 {
   const ToolDistance d = Plane(Facing::down).distance({ 5, 6, 2 });

@@ -348,6 +348,11 @@ TEST(SmoothSurface, IsPlacedOnTheBlank)
   ASSERT_TRUE(place);
   EXPECT_NEAR((*place)[2], 50.4, 1e-6);
   EXPECT_NEAR(surface.extent().sizes()[0], 100, 0.2);
+  // A ball of 100 mm for a blank of 260 mm, and the same in a file that was taken for metres or micrometres.
+  EXPECT_EQ(implausible_size(surface, 260), "");
+  EXPECT_NE(implausible_size(surface, 260e3).find("for a blank of 2.6e+05 mm"), std::string::npos);
+  EXPECT_NE(implausible_size(surface, 2.6), "");
+  EXPECT_EQ(implausible_size(round_die, 260e3), ""); // without bounds
 }
 
 TEST(SmoothSurface, BrokenSurfacesAreExplained)
