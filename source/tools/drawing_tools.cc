@@ -38,22 +38,29 @@ namespace tribodraw
       Matrix3d hessian;
     };
 
+    /// Distance to the circle of radius @p r about (0,0) in the plane of two coordinates.
+    ToolDistance
+    circle(const EdgeCoordinate &a, const EdgeCoordinate &b, const double r)
+    {
+      const double   rho = std::hypot(a.value, b.value);
+      const Vector3d n   = (a.value * a.gradient + b.value * b.gradient) / rho;
+      const Matrix3d section
+          = a.gradient * a.gradient.transpose() + b.gradient * b.gradient.transpose() - n * n.transpose();
+      return { rho - r, n, (section + a.value * a.hessian + b.value * b.hessian) / rho };
+    }
+
     /// Distance to the quarter circle of radius @p r about (0,0) in the plane of two coordinates, continued by the
     /// straight lines a = r (for b < 0) and b = r (for a < 0).
     ToolDistance
     round_edge(const EdgeCoordinate &a, const EdgeCoordinate &b, const double r)
     {
-      const double rho = std::hypot(a.value, b.value);
       // Deep inside the body, and on the centre line itself, where the curvature of the circles has no limit.
-      if (a.value <= 0 || b.value <= 0 || rho < 1e-9 * r)
+      if (a.value <= 0 || b.value <= 0 || std::hypot(a.value, b.value) < 1e-9 * r)
         {
           const EdgeCoordinate &larger = a.value > b.value ? a : b;
           return { larger.value - r, larger.gradient, larger.hessian };
         }
-      const Vector3d n = (a.value * a.gradient + b.value * b.gradient) / rho;
-      const Matrix3d circle
-          = a.gradient * a.gradient.transpose() + b.gradient * b.gradient.transpose() - n * n.transpose();
-      return { rho - r, n, (circle + a.value * a.hessian + b.value * b.hessian) / rho };
+      return circle(a, b, r);
     }
 
     /// @p sign * (plan distance) + @p shift as a coordinate in space.
@@ -120,5 +127,52 @@ namespace tribodraw
   DrawingPunch::describe() const
   {
     return "punch with edge radius " + mm(edge) + " and the outline: " + wall->describe();
+  }
+
+  DrawBead::DrawBead(std::shared_ptr<const Outline> bead_line, const double bead_radius)
+      : line(std::move(bead_line)), radius(bead_radius)
+  {
+    check_edge(radius, std::min(line->smallest_convex_radius(), line->smallest_concave_radius()), "Bead",
+               "a radius of its line");
+  }
+
+  ToolDistance
+  DrawBead::distance(const Vector3d &x) const
+  {
+    const EdgeCoordinate outwards = plan_coordinate(*line, x, 1, 0), upwards = height_coordinate(x, 1, radius);
+    if (std::hypot(outwards.value, upwards.value) < 1e-9 * radius) // every direction is as good as another
+      return { -radius, Vector3d::UnitZ(), Matrix3d::Zero() };
+    return circle(outwards, upwards, radius);
+  }
+
+  std::string
+  DrawBead::describe() const
+  {
+    return "bead of radius " + mm(radius) + " along a " + line->describe();
+  }
+
+  BeadGroove::BeadGroove(std::shared_ptr<const Outline> groove_line, const double groove_width,
+                         const double edge_radius)
+      : line(std::move(groove_line)), width(groove_width), edge(edge_radius)
+  {
+    if (!(width > 0))
+      throw InputError(describe_error("Groove: the width must be positive.", "", mm(width)));
+    check_edge(edge, std::min(line->smallest_convex_radius(), line->smallest_concave_radius()) - 0.5 * width, "Groove",
+               "a radius of its line less half the width");
+  }
+
+  ToolDistance
+  BeadGroove::distance(const Vector3d &x) const
+  {
+    // A die on either side of the line. In the middle of the groove the normal jumps, which no sheet comes near to.
+    const double side = line->distance(x.head<2>()).distance < 0 ? 1 : -1;
+    return round_edge(plan_coordinate(*line, x, side, edge + 0.5 * width), height_coordinate(x, 1, edge), edge);
+  }
+
+  std::string
+  BeadGroove::describe() const
+  {
+    return "plate with a groove of width " + mm(width) + " and edge radius " + mm(edge) + " along a "
+           + line->describe();
   }
 } // namespace tribodraw

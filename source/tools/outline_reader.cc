@@ -83,6 +83,39 @@ namespace tribodraw
              5 };
   }
 
+  std::unique_ptr<Outline>
+  read_outline(Parameters &parameters)
+  {
+    const std::vector<std::pair<std::string, OutlineFormat>> formats = { { "Circle", circle_format() },
+                                                                         { "Rectangle", rounded_rectangle_format() },
+                                                                         { "Cross", cross_format() },
+                                                                         { "Strip", strip_format() } };
+    std::vector<std::string>                                 names;
+    for (const auto &[name, format] : formats)
+      names.push_back(name);
+    const std::string chosen = parameters.choice(
+        "Outline", names, "The line along which the tool runs, seen from above; its subsection follows.");
+    std::unique_ptr<Outline> outline;
+    for (const auto &[name, format] : formats)
+      if (name != chosen && !parameters.documentation_mode())
+        parameters.mark_unselected(name);
+      else
+        {
+          const auto          scope     = parameters.section(name);
+          const bool          faultless = !parameters.has_problems();
+          std::vector<double> values, example;
+          for (const auto &entry : format.entries)
+            {
+              values.push_back(parameters.quantity(entry.name, "mm", usual_length, entry.documentation));
+              example.push_back(entry.example);
+            }
+          const bool readable = faultless && !parameters.has_problems() && !parameters.documentation_mode();
+          if (!outline)
+            outline = format.make(readable ? values : example);
+        }
+    return outline ? std::move(outline) : circle_format().make({ 100 });
+  }
+
   DrawingDie
   read_die(Parameters &parameters, const OutlineFormat &format)
   {

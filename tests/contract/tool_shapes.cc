@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(AllRegistered, ToolShape, ::testing::ValuesIn(names()),
 TEST(ToolShapes, TheShippedOnesAndThatOfTheTutorialAreRegistered)
 {
   for (const char *name :
-       { "triangle surface", "ring", "plane", "plate", "cylinder", "sphere", "cross die", "cross punch", "square die", "square punch",
+       { "triangle surface", "ring", "draw bead", "bead groove", "plane", "plate", "cylinder", "sphere", "cross die", "cross punch", "square die", "square punch",
          "cylindrical die", "cylindrical punch", "hemispherical punch", "U-bend die", "U-bend punch" })
     EXPECT_TRUE(Registry<ToolGeometry>::entries().count(name)) << name;
 }

@@ -52,6 +52,47 @@ namespace tribodraw
     std::shared_ptr<const Outline> wall;
     double                         edge;
   };
+
+  /// A ridge of circular section along an outline, a tool of its own beside the die: its top touches z = 0, its centre
+  /// line lies one radius below.
+  class DrawBead : public ToolGeometry
+  {
+  public:
+    /// Throws InputError if the radius is larger than a radius of the line.
+    DrawBead(std::shared_ptr<const Outline> line, double radius);
+    ToolDistance distance(const Eigen::Vector3d &x) const override;
+    double
+    smallest_radius() const override
+    {
+      return radius;
+    }
+    std::string describe() const override;
+
+  private:
+    std::shared_ptr<const Outline> line;
+    double                         radius;
+  };
+
+  /// The half space z < 0 with a groove of vertical walls and rounded edges along an outline, endlessly deep: upside
+  /// down the blank holder over a bead.
+  class BeadGroove : public ToolGeometry
+  {
+  public:
+    /// @param width between the walls [mm]. Throws InputError if half of it and the edge are more than a radius of
+    /// the line.
+    BeadGroove(std::shared_ptr<const Outline> line, double width, double edge_radius);
+    ToolDistance distance(const Eigen::Vector3d &x) const override;
+    double
+    smallest_radius() const override
+    {
+      return edge;
+    }
+    std::string describe() const override;
+
+  private:
+    std::shared_ptr<const Outline> line;
+    double                         width, edge;
+  };
 } // namespace tribodraw
 
 #endif

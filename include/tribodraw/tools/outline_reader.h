@@ -31,6 +31,9 @@ namespace tribodraw
   OutlineFormat rounded_rectangle_format();
   OutlineFormat cross_format();
 
+  /// Entry `Outline` and the subsection named like the choice with the entries of its format.
+  std::unique_ptr<Outline> read_outline(Parameters &parameters);
+
   /// Entries of the format, `Clearance` and `Edge radius`. The opening is the outline moved outwards by the clearance,
   /// so that punch and die are written with the same numbers; with a clearance of zero the entries are those of the
   /// opening itself.

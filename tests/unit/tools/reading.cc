@@ -125,6 +125,27 @@ TEST(ToolReading, UBendToolsAreEndlessInY)
   EXPECT_LT((die->distance({ 31 - 5 * s, 7, -5 + 5 * s }).normal - Vector3d(-s, 0, s)).norm(), 1e-12);
 }
 
+TEST(ToolReading, BeadAndGrooveAlongAnOutline)
+{
+  const std::string line = "set Outline = Rectangle\nsubsection Rectangle\nset Width in x = 120 mm\n"
+                           "set Width in y = 100 mm\nset Corner radius = 25 mm\nend\n";
+  const auto        bead = read("draw bead", "subsection Draw bead\n" + line + "set Bead radius = 4 mm\nend\n");
+  EXPECT_NEAR(bead->distance({ 60, 3, 1 }).distance, 1, 1e-12);
+  EXPECT_NEAR(bead->distance({ 63, 0, 0 }).distance, 1, 1e-12); // 3-4-5 from the centre line at z = -4
+  const auto groove = read("bead groove", "subsection Bead groove\n" + line
+                                              + "set Groove width = 10 mm\nset Edge radius = 3 mm\nend\n");
+  EXPECT_NEAR(groove->distance({ 80, 0, 2 }).distance, 2, 1e-12);
+  EXPECT_NEAR(groove->distance({ 40, 0, 2 }).distance, 2, 1e-12);
+  EXPECT_NEAR(groove->distance({ 62, 0, -20 }).distance, 3, 1e-12); // walls 5 mm from the line
+  EXPECT_NEAR(groove->distance({ 57, 0, -20 }).distance, 2, 1e-12);
+  // The bead of 4 mm and a sheet of 0.8 mm in the groove of 10 mm: 0.2 mm are left on each side.
+  const std::string sharp = message("draw bead", "subsection Draw bead\n" + line + "set Bead radius = 26 mm\nend\n");
+  EXPECT_NE(sharp.find("at most 25 mm"), std::string::npos) << sharp;
+  const std::string wide = message("bead groove", "subsection Bead groove\n" + line
+                                                      + "set Groove width = 46 mm\nset Edge radius = 3 mm\nend\n");
+  EXPECT_NE(wide.find("at most 2 mm"), std::string::npos) << wide;
+}
+
 TEST(ToolReading, InvalidOutlineNamesSectionAndNumbers)
 {
   const std::string text = message("cross die", die_entries, { "Cross die/Arm reach = 70 mm" });
