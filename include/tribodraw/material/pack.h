@@ -273,7 +273,9 @@ namespace tribodraw
     }
 
 #if defined(__x86_64__)
-    inline const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    /// Whether vectorised() uses AVX2 and FMA. Tests clear it to run the SSE2 code on any processor; never to be changed
+    /// while another thread computes.
+    inline bool use_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 
     template <class Body>
     __attribute__((target("avx2,fma"))) inline void
@@ -289,7 +291,7 @@ namespace tribodraw
     vectorised(const Body &body)
     {
 #if defined(__x86_64__)
-      if (has_avx2)
+      if (use_avx2)
         {
           run_avx2(body);
           return;

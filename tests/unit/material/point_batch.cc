@@ -236,3 +236,60 @@ TEST(PointBatch, special_states)
   options.time_increment = 0;
   EXPECT_FALSE(evaluate(sheet, batch, old_states, new_states, options));
 }
+
+#if defined(__x86_64__)
+// The same points with AVX2 and with the instructions that every x86-64 has. They differ by fused multiply-adds only:
+// round-off, enlarged where the update ends with an iteration more or less (its tolerance is 1e-11 of the flow stress).
+TEST(PointBatch, both_instruction_sets_agree)
+{
+  if (!pack::use_avx2)
+    GTEST_SKIP() << "no AVX2 here: all other tests run the SSE2 code";
+  struct WithoutAvx2
+  {
+    WithoutAvx2() { pack::use_avx2 = false; }
+    ~WithoutAvx2() { pack::use_avx2 = true; }
+  };
+  std::mt19937 generator(5);
+  PointOptions options;
+  options.tangent        = true;
+  options.time_increment = 0.1;
+  double   worst_stress = 0, worst_tangent = 0, worst_state = 0;
+  unsigned n_different = 0;
+  for (const char *locus : loci)
+    for (const char *law : laws)
+      {
+        const auto sheet = paper::sheet(locus, law);
+        for (unsigned repeat = 0; repeat < 200; ++repeat)
+          {
+            PointBatch                batch;
+            std::vector<PlasticState> old_states;
+            random_points(generator, 15, batch, old_states);
+            PointBatch                plain = batch;
+            std::vector<PlasticState> fast_states(old_states), plain_states(old_states);
+            ASSERT_TRUE(evaluate(sheet, batch, old_states.data(), fast_states.data(), options));
+            {
+              const WithoutAvx2 guard;
+              ASSERT_TRUE(evaluate(sheet, plain, old_states.data(), plain_states.data(), options));
+            }
+            for (unsigned i = 0; i < batch.n; ++i)
+              {
+                for (unsigned k = 0; k < 3; ++k)
+                  {
+                    worst_stress = std::max(worst_stress, std::abs(batch.stress[k][i] - plain.stress[k][i]));
+                    worst_state  = std::max(
+                         worst_state, std::abs(fast_states[i].plastic_strain[k] - plain_states[i].plastic_strain[k]));
+                  }
+                for (unsigned k = 0; k < 6; ++k)
+                  {
+                    worst_tangent = std::max(worst_tangent, std::abs(batch.tangent[k][i] - plain.tangent[k][i]));
+                    n_different += batch.tangent[k][i] != plain.tangent[k][i];
+                  }
+              }
+          }
+      }
+  EXPECT_LT(worst_stress, 1e-9);  // MPa, of some 500
+  EXPECT_LT(worst_tangent, 1e-6); // MPa, of some 1e5
+  EXPECT_LT(worst_state, 1e-14);
+  EXPECT_GT(n_different, 0u); // or the same code ran twice
+}
+#endif
