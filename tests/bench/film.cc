@@ -32,9 +32,9 @@ namespace
         d.sheet_velocity = { 60, 0, 0 };
         if (rough)
           {
-            const double a = 0.5 + 0.3 * std::sin(2.1 * x) * std::cos(1.7 * y), b = 0.15 * std::cos(x + y);
+            const double a = 0.5 + 0.3 * std::sin(2.1 * x) * std::cos(1.7 * y), b = 0.2 * a * std::cos(x + y);
             d.phi_p << a, b, b, 0.7 * a;
-            d.sq_phi_s << 6e-4 * a, 1e-4, 1e-4, 4e-4;
+            d.sq_phi_s << 6e-4 * a, 5e-5, 5e-5, 4e-4;
           }
       }
     return nodes;
