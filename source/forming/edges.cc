@@ -33,7 +33,7 @@ namespace tribodraw
       if (p.documentation_mode() || (pulled && p.has(motion)))
         edge.motion = Motion::read(p, motion, "Displacement of the grip outwards, from the start of the drawing on.");
       if (p.documentation_mode() || (pulled && p.has(force)))
-        edge.force = read_force_table(p, force, "Force on the edge of the full part outwards, from the start of the drawing on; the grip is then free to turn.");
+        edge.force = read_force_table(p, force, "Force on the edge of the full part outwards, from the start of the drawing on; the grip then keeps its height and lets the edge turn and contract.");
     }
   } // namespace
 

@@ -13,8 +13,9 @@ namespace tribodraw
   {
     /// Rates are taken over at least this travel: those of a tiny increment mean nothing [mm].
     constexpr double shortest_travel = 0.2;
-    /// Thinning of the critical element over that of its neighbours from which on the deformation counts as gathered.
-    constexpr double gathered = 2;
+    /// Thinning of the critical element per travel, over the slowest since the limit was exceeded, from which on it counts as
+    /// accelerating. In a part that is only drawn in further it slows down.
+    constexpr double accelerated = 1.5;
     /// Force over its largest value below which it counts as falling.
     constexpr double fallen = 0.99;
   } // namespace
@@ -47,10 +48,10 @@ namespace tribodraw
     critical = {};
     for (unsigned e = 0; e < elements.major_strain.size(); ++e)
       {
-        const double margin = forming_limit_margin(*limit, elements.major_strain[e], elements.minor_strain[e]);
-        if (margin < critical.margin)
+        const double ratio = forming_limit_margin(*limit, elements.major_strain[e], elements.minor_strain[e]);
+        if (ratio > critical.ratio)
           {
-            critical.margin  = margin;
+            critical.ratio   = ratio;
             critical.element = e;
           }
       }
@@ -70,16 +71,16 @@ namespace tribodraw
       around += rate(e) / neighbours[critical.element].size();
     const double here    = rate(critical.element);
     const bool   falling = force < fallen * largest_force;
-    if (getenv("NECK"))
-      fprintf(stderr, "NECK %g margin %.4f here %.5f around %.5f ratio %.2f force %.4f thin %.3f at %.1f %.1f\n", path, critical.margin, here, around, here / around, force / largest_force, thinning(critical.element), critical.place_undeformed[0], critical.place_undeformed[1]);
-    if (why.empty() && limit_exceeded() && here > 0 && here > gathered * around && falling)
+    if (limit_exceeded() && here > 0)
+      slowest = std::min(slowest, here);
+    if (why.empty() && limit_exceeded() && falling && here > accelerated * slowest)
       {
         char text[400];
         std::snprintf(text, sizeof(text),
-                      "At %.2f mm of travel the forming limit is exceeded by %.3f at (%.1f, %.1f, %.1f) mm (undeformed: %.1f, %.1f), where the sheet thins %.1f times as fast as "
-                      "around, and the force has fallen to %.1f %% of its maximum.",
-                      path, -critical.margin, critical.place[0], critical.place[1], critical.place[2], critical.place_undeformed[0], critical.place_undeformed[1],
-                      here / std::max(around, 1e-3 * here), 100 * force / largest_force);
+                      "At %.2f mm of travel the major strain is %.3f times its limit at (%.1f, %.1f, %.1f) mm (undeformed: %.1f, %.1f), where the sheet thins %.1f times as fast as "
+                      "around and %.1f times as fast as when the limit was passed, and the force has fallen to %.1f %% of its maximum.",
+                      path, critical.ratio, critical.place[0], critical.place[1], critical.place[2], critical.place_undeformed[0], critical.place_undeformed[1],
+                      here / std::max(around, 1e-3 * here), here / slowest, 100 * force / largest_force);
         recognise(text);
       }
     for (unsigned e = 0; e < last_thinning.size(); ++e)
@@ -99,8 +100,8 @@ namespace tribodraw
   NeckingMonitor::without_equilibrium(const std::string &solver_says)
   {
     char text[400];
-    std::snprintf(text, sizeof(text), "After %.2f mm of travel there is no equilibrium any more (%s); the forming limit is exceeded by %.3f at (%.1f, %.1f, %.1f) mm (undeformed: %.1f, %.1f).",
-                  seen_path, solver_says.c_str(), -critical.margin, critical.place[0], critical.place[1], critical.place[2], critical.place_undeformed[0], critical.place_undeformed[1]);
+    std::snprintf(text, sizeof(text), "After %.2f mm of travel there is no equilibrium any more (%s); the major strain is %.3f times its limit at (%.1f, %.1f, %.1f) mm (undeformed: %.1f, %.1f).",
+                  seen_path, solver_says.c_str(), critical.ratio, critical.place[0], critical.place[1], critical.place[2], critical.place_undeformed[0], critical.place_undeformed[1]);
     if (why.empty())
       recognise(text);
   }
@@ -109,7 +110,7 @@ namespace tribodraw
   NeckingMonitor::save(Archive &archive) const
   {
     archive.put("necking/thinning", last_thinning);
-    archive.put("necking/state", std::vector<double>{last_path, largest_force, neck_travel, neck_place[0], neck_place[1], neck_place[2]});
+    archive.put("necking/state", std::vector<double>{last_path, largest_force, neck_travel, neck_place[0], neck_place[1], neck_place[2], slowest});
     archive.put("necking/reason", why);
   }
 
@@ -117,11 +118,12 @@ namespace tribodraw
   NeckingMonitor::load(const Archive &archive)
   {
     last_thinning     = archive.numbers("necking/thinning", last_thinning.size());
-    const auto &state = archive.numbers("necking/state", 6);
+    const auto &state = archive.numbers("necking/state", 7);
     last_path         = state[0];
     largest_force     = state[1];
     neck_travel       = state[2];
     neck_place        = {state[3], state[4], state[5]};
+    slowest           = state[6];
     why               = archive.text("necking/reason");
   }
 } // namespace tribodraw

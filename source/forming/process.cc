@@ -37,6 +37,9 @@ namespace tribodraw
       process.holder_travels = p.quantity_list("Blank holder travels", "mm", Range::non_negative(),
                                                "Punch travel at each of the blank holder forces; between them the force is linear, before and after constant.",
                                                Default{"", "a constant force"});
+      process.holder_stop = p.quantity("Blank holder stop", "", Range::between(0, 1),
+                                       "Distance of blank holder and die over the thickness of the blank at which spacers between them stop the holder: when the sheet has left it.",
+                                       Default{"0.9", "a sheet that is held is thicker"});
       if (p.documentation_mode())
         return;
       if (process.holder_travels.empty() && process.holder_forces.size() > 1)
@@ -50,14 +53,14 @@ namespace tribodraw
     void read_holder(Parameters &p, const bool present, Process &process)
     {
       if (!present && !p.documentation_mode())
-        return mark_unselected(p, "Blank holder control", "Blank holder force", "Blank holder travels", "Blank holder gap");
+        return mark_unselected(p, "Blank holder control", "Blank holder force", "Blank holder travels", "Blank holder stop", "Blank holder gap");
       const bool gap = p.choice("Blank holder control", {"force", "gap"}, "force: the blank holder is a rigid body pressed down with a force; gap: it stands at a fixed distance from the die.",
                                 Default{"force", "the usual press"}) == "gap";
       process.holder_control = gap ? Process::HolderControl::gap : Process::HolderControl::force;
       if (!gap || p.documentation_mode())
         read_holder_force(p, process);
       else
-        mark_unselected(p, "Blank holder force", "Blank holder travels");
+        mark_unselected(p, "Blank holder force", "Blank holder travels", "Blank holder stop");
       if (gap || p.documentation_mode())
         process.holder_gap = p.quantity("Blank holder gap", "mm", Range::positive().usual(0.1, 20), "Distance between the faces of blank holder and die.");
       else
@@ -73,7 +76,10 @@ namespace tribodraw
     const auto present = [&](const char *name) { return std::find(absent.begin(), absent.end(), name) == absent.end(); };
     read_punch(p, present("Punch"), process);
     read_holder(p, present("Blank holder"), process);
-    if (p.has("Fluid pressure"))
+    if (!p.text("Fluid pressure", "Pressure on the lower face of the blank over time from the start of the drawing on: pairs of time and value, for example `0 s, 0 MPa, 1 s, 5 MPa`, or the name of a CSV file with the columns `time_s` and `pressure_MPa`.",
+                Default{"", "no fluid"})
+           .empty() &&
+        !p.documentation_mode())
       process.fluid_pressure = TimeTable::read(p, "Fluid pressure", {"pressure", "MPa", Range::between(-1e4, 1e4)},
                                                "Pressure on the lower face of the blank, from the start of the drawing on.");
     process.unloading = p.choice("Unloading", {"no", "tools removed"}, "What follows the drawing. tools removed: tools, fluid and pulling forces are taken away, and the part springs back; edges that are held stay so.",

@@ -184,6 +184,8 @@ namespace tribodraw
       return;
     try
       {
+        if (tools.tools.empty() && !process.fluid_pressure && !blank.edges.any())
+          p.problem("Tools", "nothing acts on the blank.", "a tool, a fluid pressure or an edge that is pulled", "Name a tool in 'More tools', or remove a role from 'Without'.");
         Case c{p, blank, tools, process, blank.mesh(), {}};
         c.start = tools.place(blank.thickness, c.mesh.nodes);
         check_opening(c);

@@ -73,7 +73,9 @@ namespace tribodraw
           supports.mirror(nodes, axis);
         else if (edge.condition == Condition::hinged)
           supports.hinge(nodes);
-        else if (!edge.force)
+        else if (edge.force)
+          supports.fix(nodes, {2});
+        else
           supports.clamp(nodes);
         if (edge.motion)
           {
@@ -114,11 +116,32 @@ namespace tribodraw
   Schedule::place(const BlankMesh &mesh, const double thickness) const
   {
     std::vector<ContactTool> placed = tools.place(thickness, mesh.nodes);
-    for (std::size_t k = 0; k < free_tools.size(); ++k)
-      placed[free_tools[k]].free_index = static_cast<int>(k);
+    number_free_tools(placed);
     if (tools.holder >= 0 && process.holder_control == Process::HolderControl::gap && tools.die >= 0)
       placed[tools.holder].place[2] += process.holder_gap - thickness;
     return placed;
+  }
+
+  void
+  Schedule::number_free_tools(std::vector<ContactTool> &placed) const
+  {
+    for (auto &tool : placed)
+      tool.free_index = -1;
+    for (std::size_t k = 0; k < free_tools.size(); ++k)
+      placed[free_tools[k]].free_index = static_cast<int>(k);
+  }
+
+  bool
+  Schedule::is_free(const std::size_t tool) const
+  {
+    return std::find(free_tools.begin(), free_tools.end(), tool) != free_tools.end();
+  }
+
+  void
+  Schedule::stop(const std::size_t tool, std::vector<ContactTool> &placed)
+  {
+    free_tools.erase(std::remove(free_tools.begin(), free_tools.end(), tool), free_tools.end());
+    number_free_tools(placed);
   }
 
   double

@@ -38,6 +38,7 @@ namespace tribodraw
     , last_force(tools.tools.size(), Vector3d::Zero())
   {
     solver = std::make_unique<IncrementSolver>(shell, contact, schedule.fixed(), schedule.n_free_tools(), settings);
+    holder_start = tools.holder >= 0 ? contact.tools()[tools.holder].place[2] : 0.;
     find_edge_nodes();
     friction->start(shell, contact);
     record.min_thickness = b.thickness;
@@ -107,6 +108,11 @@ namespace tribodraw
         else if (outcome.iterations > many_iterations)
           next_increment = std::max(settings.smallest_increment, shrinkage * step);
         advance(load, outcome, Stage::drawing, step);
+        if (tools.holder >= 0 && schedule.is_free(tools.holder) && tools.die >= 0 && holder_height() < process.holder_stop * blank.thickness)
+          {
+            log::info("The blank holder rests on its spacers.");
+            stop_holder();
+          }
         report_step();
         progress.update(record.path);
         write_checkpoint();
@@ -115,6 +121,20 @@ namespace tribodraw
     friction->report_end();
     if (monitor && monitor->necked())
       log::warning("The sheet necks. " + monitor->reason());
+  }
+
+  double
+  Simulation::Implementation::holder_height() const
+  {
+    // both touched the flat sheet at the start
+    return blank.thickness + contact.tools()[tools.holder].place[2] - holder_start;
+  }
+
+  void
+  Simulation::Implementation::stop_holder()
+  {
+    schedule.stop(tools.holder, contact.tools());
+    solver = std::make_unique<IncrementSolver>(shell, contact, schedule.fixed(), schedule.n_free_tools(), settings);
   }
 
   void

@@ -53,7 +53,7 @@ namespace tribodraw
       monitor->save(archive);
     for (const auto &o : observers)
       o->save(archive);
-    archive.put("simulation/state", std::vector<double>{static_cast<double>(n_committed), next_increment, last_checkpoint});
+    archive.put("simulation/state", std::vector<double>{static_cast<double>(n_committed), next_increment, last_checkpoint, tools.holder >= 0 && schedule.is_free(tools.holder) ? 1. : 0.});
     std::vector<double> forces, values;
     for (const Eigen::Vector3d &f : last_force)
       forces.insert(forces.end(), f.data(), f.data() + 3);
@@ -78,11 +78,13 @@ namespace tribodraw
       monitor->load(archive);
     for (const auto &o : observers)
       o->load(archive);
-    const auto &state  = archive.numbers("simulation/state", 3);
+    const auto &state  = archive.numbers("simulation/state", 4);
     n_committed        = static_cast<long>(state[0]);
     closed             = 1;
     next_increment     = state[1];
     last_checkpoint    = state[2];
+    if (tools.holder >= 0 && schedule.is_free(tools.holder) && state[3] == 0)
+      stop_holder();
     const auto &forces = archive.numbers("simulation/last force", 3 * last_force.size());
     for (std::size_t t = 0; t < last_force.size(); ++t)
       last_force[t] = Eigen::Vector3d(forces[3 * t], forces[3 * t + 1], forces[3 * t + 2]);
@@ -115,7 +117,7 @@ namespace tribodraw
         try
           {
             Archive      archive = Archive::load(file);
-            const double count   = archive.numbers("simulation/state", 3)[0];
+            const double count   = archive.numbers("simulation/state", 4)[0];
             if (count > newest_count)
               {
                 newest       = std::move(archive);

@@ -30,6 +30,7 @@ namespace tribodraw
     // what a checkpoint holds besides the states of the parts
     double                       closed         = 0; // share of the forces at the start that is applied
     double                       next_increment = 0;
+    double                       holder_start   = 0; // height of the holder's frame at the start [mm]
     std::vector<Eigen::Vector3d> last_force; // on each tool, for the trapezoidal rule of the work
     long                         n_committed = 0;
 
@@ -48,6 +49,8 @@ namespace tribodraw
     void close();
     void draw();
     void unload();
+    void   stop_holder();
+    double holder_height() const; // of its face above that of the die [mm]
     bool ends_with_neck() const;
 
     // a converged increment: figures, history, friction, observers

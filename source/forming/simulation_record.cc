@@ -197,6 +197,9 @@ namespace tribodraw
       }
     text += "\nTry a smaller 'Solver/Contact stiffness', a finer 'Blank/Element size', or look for necking: smallest thickness " +
             units::format(record.min_thickness, "mm") + " of " + units::format(blank.thickness, "mm") + ".";
+    if (process.fluid_pressure)
+      text += " A fluid pressure has a maximum beyond which the sheet has no equilibrium: it is " +
+              units::format(process.fluid_pressure->value(schedule.time(record.path)), "MPa") + " here.";
     for (const auto &o : observers)
       o->finished(owner, false);
     throw ConvergenceError(text);

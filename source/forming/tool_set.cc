@@ -41,10 +41,11 @@ namespace tribodraw
 
     std::optional<double> read_friction(Parameters &p)
     {
-      if (!p.has("Friction coefficient"))
-        return {};
-      return p.quantity("Friction coefficient", "", Range::non_negative().usual(0, 0.5),
-                        "Coulomb coefficient of this tool, for 'Coupling/Friction = constant'; without it 'Coupling/Constant friction coefficient' holds.");
+      const auto values = p.quantity_list("Friction coefficient", "", Range::non_negative().usual(0, 0.5), "Coulomb coefficient of this tool, for 'Coupling/Friction = constant'.",
+                                          Default{"", "that of 'Coupling/Constant friction coefficient'"});
+      if (values.size() > 1)
+        p.problem("Friction coefficient", "more than one number is given.", "one number");
+      return values.empty() ? std::nullopt : std::optional<double>(values[0]);
     }
 
     ProcessTool read_role(Parameters &p, const std::string &name, const Face face, const std::string &documentation)
@@ -88,8 +89,12 @@ namespace tribodraw
       tool.geometry     = p.model<ToolGeometry>("Model", "Shape of this tool.");
       tool.face         = p.choice("Side", {"above", "below"}, "Where the tool is: it touches the upper face of the blank from above or the lower from below.") == "above" ? Face::punch_side : Face::die_side;
       tool.upside_down  = p.flag("Upside down", "The shape is turned over (z -> -z).", Default{"false", "the shape as it is described"});
-      if (p.has("Place"))
-        tool.place = read_vector(p, "Place", "mm", Range::between(-1e5, 1e5), "Origin of the shape's frame: x, y, z; the middle of the blank is at 0, 0, 0. Without it the tool is centred and touches the flat blank.");
+      const auto place = p.quantity_list("Place", "mm", Range::between(-1e5, 1e5), "Origin of the shape's frame: x, y, z; the middle of the blank is at 0, 0, 0.",
+                                         Default{"", "centred and touching the flat blank"});
+      if (place.size() == 3)
+        tool.place = Vector3d(place[0], place[1], place[2]);
+      else if (!place.empty() && !p.documentation_mode())
+        p.problem("Place", "three numbers are needed: x, y, z.");
       const std::string control = p.choice("Control", controls, "fixed; motion: moved along 'Direction' as 'Motion' says; force: a rigid body that 'Force' pushes along 'Direction'.",
                                            Default{"fixed", "a die"});
       tool.control              = static_cast<ProcessTool::Control>(std::max<long>(0, std::find(controls.begin(), controls.end(), control) - controls.begin()));
@@ -164,8 +169,6 @@ namespace tribodraw
     if (present(holder_name))
       tools.holder = add(read_holder(p, tools));
     read_further_tools(p, tools);
-    if (tools.tools.empty() && !p.documentation_mode())
-      p.problem("", "there is no tool.", "", "Name one in 'More tools', or remove a role from 'Without'.");
     return tools;
   }
 

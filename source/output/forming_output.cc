@@ -84,7 +84,7 @@ namespace tribodraw
     energy.add_row({ r.time, r.punch_travel, r.increment, joule * r.external_work, joule * r.elastic_energy,
                      joule * r.plastic_work, joule * r.friction_work, joule * r.contact_energy, r.energy_error(),
                      r.force_imbalance, r.residual, r.max_penetration, its, joule * r.stabilisation_work,
-                     r.forming_limit.margin, r.unloaded });
+                     r.forming_limit.ratio, r.unloaded });
     const auto &rigid = simulation.contact().tools();
     for (std::size_t t = 0; t < rigid.size(); ++t)
       {

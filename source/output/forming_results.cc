@@ -69,11 +69,11 @@ namespace tribodraw
     add("greatest thickness at undeformed x", start[thickest][0], "mm");
     add("greatest thickness at undeformed y", start[thickest][1], "mm");
     add("largest plastic strain", r.max_eps_p, "");
-    if (r.forming_limit.margin < 1e299)
+    if (r.forming_limit.ratio > 0)
       {
-        add("least margin to the forming limit", r.forming_limit.margin, "");
-        add("least margin at undeformed x", r.forming_limit.place_undeformed[0], "mm");
-        add("least margin at undeformed y", r.forming_limit.place_undeformed[1], "mm");
+        add("largest major strain over its forming limit", r.forming_limit.ratio, "");
+        add("nearest to the forming limit at undeformed x", r.forming_limit.place_undeformed[0], "mm");
+        add("nearest to the forming limit at undeformed y", r.forming_limit.place_undeformed[1], "mm");
       }
     add("necked", simulation.necking() != nullptr, "");
     if (const NeckingMonitor *neck = simulation.necking())

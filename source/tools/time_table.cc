@@ -122,6 +122,8 @@ namespace tribodraw
                   ? read_pairs(text, quantity)
                   : read_table_file(file.is_absolute() ? file : parameters.base_folder() / file, quantity);
         check_range(points.second, quantity);
+        if (!points.first.empty() && points.first.front() < 0)
+          throw InputError(describe_error("a time is negative.", "point 1", units::format(points.first.front(), "s"), "0 s or more"));
         return TimeTable(points.first, points.second);
       }
     catch (const InputError &e)

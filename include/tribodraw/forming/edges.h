@@ -21,7 +21,7 @@ namespace tribodraw
       hinged,   ///< no displacement
       clamped,  ///< no displacement and no rotation
       mirrored, ///< a plane of symmetry: plane strain across a narrow strip
-      pulled    ///< clamped in a grip that moves outwards or pulls with a force
+      pulled    ///< clamped in a grip that moves outwards, or pulled with a force at a constant height
     };
     struct Edge
     {

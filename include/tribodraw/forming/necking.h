@@ -17,14 +17,13 @@ namespace tribodraw
   /// Where the sheet is nearest to its forming limit.
   struct FormingLimitState
   {
-    double          margin  = 1e300; ///< smallest difference between the limit and the major strain; negative: exceeded
+    double          ratio   = 0; ///< largest major strain over its limit; above one: exceeded
     unsigned        element = 0;
     Eigen::Vector3d place = Eigen::Vector3d::Zero(), place_undeformed = Eigen::Vector3d::Zero(); ///< centre of the element [mm]
   };
 
-  /// Recognises a neck: the forming limit is exceeded, and the deformation gathers in the critical element: its thinning per
-  /// travel has grown to a multiple of what it was, and of what the sheet around it does, or the force of the press falls
-  /// while the element goes on thinning. See doc/theory/contact_and_stepping.md.
+  /// Recognises a neck: the forming limit is exceeded, the force of the press falls, and the critical element thins faster
+  /// and faster. (The force also falls when the flange becomes small; then the thinning slows down.)
   class NeckingMonitor
   {
   public:
@@ -36,7 +35,7 @@ namespace tribodraw
     void without_equilibrium(const std::string &solver_says);
 
     const FormingLimitState &state() const { return critical; }
-    bool                     limit_exceeded() const { return critical.margin < 0; }
+    bool                     limit_exceeded() const { return critical.ratio > 1; }
     bool                     necked() const { return !why.empty(); }
     /// What was seen, in words with numbers; empty: no neck.
     const std::string &reason() const { return why; }
@@ -56,6 +55,7 @@ namespace tribodraw
     std::vector<double>                           last_thinning; // -ln(t/t0) of each element
     double                                        initial_thickness = 0, last_path = 0, seen_path = 0, largest_force = 0;
     FormingLimitState                             critical;
+    double                                        slowest = 1e300; // thinning per travel of the critical element since the limit was exceeded [1/mm]
     std::string                                   why;
     double                                        neck_travel = 0;
     Eigen::Vector3d                               neck_place = Eigen::Vector3d::Zero();

@@ -26,7 +26,8 @@ namespace tribodraw
     HolderControl            holder_control = HolderControl::force;
     std::vector<double>      holder_forces;    ///< of the full part [N]
     std::vector<double>      holder_travels;   ///< punch travel at each of them [mm]; empty: one constant force
-    double                   holder_gap = 0;   ///< between the faces of holder and die [mm]
+    double                   holder_gap  = 0;  ///< between the faces of holder and die [mm]
+    double                   holder_stop = 0;  ///< share of the thickness at which spacers stop a pressed holder
     std::optional<TimeTable> fluid_pressure;   ///< on the lower face over process time [MPa]
     bool                     unloading       = false; ///< the tools are taken away at the end
     bool                     stop_at_necking = true;

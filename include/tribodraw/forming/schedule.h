@@ -20,6 +20,9 @@ namespace tribodraw
     double time(double path) const { return path / speed; }
     /// Tools in their places before the closing.
     std::vector<ContactTool> place(const BlankMesh &mesh, double thickness) const;
+    /// The tool is stopped where it is: no longer moved by its force.
+    void                     stop(std::size_t tool, std::vector<ContactTool> &placed);
+    bool                     is_free(std::size_t tool) const;
     unsigned                 n_free_tools() const { return static_cast<unsigned>(free_tools.size()); }
     /// True if something presses from the start on and has to be applied step by step before the drawing.
     bool has_closing() const;
@@ -35,6 +38,7 @@ namespace tribodraw
   private:
     double force(std::size_t tool, double path) const;
     double pressure(double path) const;
+    void   number_free_tools(std::vector<ContactTool> &placed) const;
     void   add_edges(Shell &shell);
     void   measure_path();
 

@@ -91,7 +91,7 @@ namespace tribodraw
         for (const auto &tool : tools.tools)
           names += (names.empty() ? "" : ", ") + tool.name;
         return (process.punch_travel > 0 ? "Deep drawing to " + units::format(process.punch_travel, "mm") + " punch travel" : "Forming for " + units::format(process.duration, "s")) +
-               (process.unloading ? " and unloading" : "") + " with " + names + ".";
+               (process.unloading ? " and unloading" : "") + (names.empty() ? "" : " with " + names) + ".";
       }
 
       void run(const RunContext &context) override
@@ -114,11 +114,12 @@ namespace tribodraw
           return std::make_unique<LubricatedFriction>(friction_tables(context.output_folder.parent_path()), lubricant, lubrication);
         if (pressure_law)
           return std::make_unique<PressureFriction>(pressure_law);
+        if (std::none_of(tools.tools.begin(), tools.tools.end(), [](const ProcessTool &tool) { return tool.friction; }))
+          return std::make_unique<ConstantFriction>(friction_coefficient);
         std::vector<double> coefficients;
         for (const auto &tool : tools.tools)
           coefficients.push_back(tool.friction.value_or(friction_coefficient));
-        const bool same = std::all_of(coefficients.begin(), coefficients.end(), [&](const double mu) { return mu == coefficients.front(); });
-        return same ? std::make_unique<ConstantFriction>(coefficients.front()) : std::make_unique<ConstantFriction>(coefficients);
+        return std::make_unique<ConstantFriction>(coefficients);
       }
 
       void read_friction(Parameters &p)
@@ -139,8 +140,6 @@ namespace tribodraw
             }
           else
             p.mark_unselected("Pressure law");
-          if (!lubricated)
-            p.mark_unselected(""); // what else stands in this section belongs to lubricated friction
           for (const auto &tool : tools.tools)
             if (tool.friction && kind != "constant" && !p.documentation_mode())
               p.warning("'Tools/" + tool.name + "/Friction coefficient' has no effect with 'Coupling/Friction = " + kind + "'.");
@@ -148,8 +147,18 @@ namespace tribodraw
         if (lubricated || p.documentation_mode())
           read_lubrication(p);
         else
-          for (const char *section : {"Lubricant", "Sheet surface", "Tool surface", "Flattening", "Flow factors", "Boundary friction", "Friction table"})
-            p.mark_unselected(section);
+          mark_lubrication_unselected(p);
+      }
+
+      /// By their names, so that mistyped entries beside them are found.
+      static void mark_lubrication_unselected(Parameters &p)
+      {
+        Parameters known = Parameters::for_documentation();
+        LubricationSettings::read(known);
+        for (const EntryInfo &entry : known.entries())
+          p.mark_unselected(entry.path);
+        for (const char *section : {"Lubricant", "Sheet surface", "Tool surface", "Flattening", "Flow factors", "Boundary friction", "Friction table"})
+          p.mark_unselected(section);
       }
 
       void read_lubrication(Parameters &p)

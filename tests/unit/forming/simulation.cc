@@ -1,10 +1,7 @@
 // The forming loop on a small, coarse square cup: balances, symmetry, restart, and what happens without convergence.
-#include "unit/forming/square_cup.h"
+#include "unit/forming/coarse_cup.h"
 
 #include <tribodraw/base/errors.h>
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/forming/constant_friction.h>
-#include <tribodraw/forming/simulation.h>
 
 #include <gtest/gtest.h>
 
@@ -17,47 +14,11 @@ using namespace tribodraw;
 
 namespace
 {
-  /// Coarse, short and isotropic, so that x and y must agree; @p changes come last and win.
-  Parameters coarse_cup(const std::vector<std::string> &changes)
+  struct Drawing : FormingRun
   {
-    std::vector<std::string> all = {"Blank/Element size = 9.375 mm", "Sheet material/Yield locus = von Mises", "Process/Punch travel = 6 mm"};
-    all.insert(all.end(), changes.begin(), changes.end());
-    return Parameters::from_text(square_cup, "cup", all);
-  }
-
-  struct Records : Observer
-  {
-    std::vector<IncrementRecord> all;
-    bool                         ended = false, converged = false;
-    void committed(const Simulation &, const IncrementRecord &r) override { all.push_back(r); }
-    void finished(const Simulation &, const bool ok) override
-    {
-      ended     = true;
-      converged = ok;
-    }
-  };
-
-  struct Drawing
-  {
-    std::unique_ptr<Simulation> simulation;
-    std::shared_ptr<Records>    records = std::make_shared<Records>();
-
     explicit Drawing(const std::vector<std::string> &changes = {}, const double mu = 0.1)
-    {
-      Parameters p   = coarse_cup(changes);
-      const auto in  = [&](const char *name, auto read) {
-        const auto scope = p.section(name);
-        return read(p);
-      };
-      const auto blank    = in("Blank", Blank::read);
-      const auto material = std::make_shared<SheetMaterial>(in("Sheet material", SheetMaterial::read));
-      const auto tools    = in("Tools", ToolSet::read);
-      const auto process  = in("Process", Process::read);
-      const auto settings = in("Solver", SolverSettings::read);
-      p.finish();
-      simulation = std::make_unique<Simulation>(blank, material, tools, process, settings, std::make_unique<ConstantFriction>(mu));
-      simulation->add_observer(records);
-    }
+      : FormingRun(coarse_cup(changes), std::make_unique<ConstantFriction>(mu))
+    {}
   };
 } // namespace
 
@@ -166,27 +127,7 @@ TEST(Forming, WithoutConvergenceTheLastStateIsHandedOverAndExplained)
 // to the punch of 70 mm; smallest radius 5 mm (die edge).
 TEST(Forming, InconsistentProcessIsExplained)
 {
-  const auto problem = [](const std::vector<std::string> &changes) -> std::string {
-    try
-      {
-        Parameters p  = coarse_cup(changes);
-        const auto in = [&](const char *name, auto read) {
-          const auto scope = p.section(name);
-          return read(p);
-        };
-        const auto blank = in("Blank", Blank::read);
-        in("Sheet material", SheetMaterial::read);
-        const auto tools = in("Tools", ToolSet::read);
-        const auto process = in("Process", Process::read);
-        check_process(p, blank, tools, process);
-        p.finish();
-      }
-    catch (const InputError &e)
-      {
-        return e.what();
-      }
-    return "";
-  };
+  const auto problem = [](const std::vector<std::string> &changes) { return problems_of(coarse_cup(changes)); };
   const auto has = [](const std::string &text, const std::string &piece) {
     EXPECT_NE(text.find(piece), std::string::npos) << "'" << piece << "' is not in: " << text;
   };
