@@ -18,7 +18,10 @@ namespace tribodraw
     constexpr unsigned few_iterations = 14, many_iterations = 22;
     constexpr double   growth = 1.4, shrinkage = 0.6;
     /// Share of the tool forces that is taken away first, and the smallest step: springback is mostly elastic.
-    constexpr double first_release = 0.25, smallest_release = 1e-3;
+    constexpr double first_release = 0.25, smallest_release = 1e-2;
+    /// Of a viscosity in a step of the first size, if the part buckles [MPa/mm]; and how much longer steps become before it
+    /// is left away.
+    constexpr double slowing_stiffness = 0.5, longest_relaxation = 1e4;
     constexpr double smallest_closing = 1e-4;
     constexpr double complete         = 1 - 1e-9;
   } // namespace
@@ -150,16 +153,17 @@ namespace tribodraw
         contact.assemble(unused, nullptr, {});
       }
     const Loads           tool_forces = contact.frozen_forces();
-    IncrementSolver       springback(shell, contact, schedule.held_without_tools(shell), schedule.n_free_tools(), settings);
+    SolverSettings        controls    = settings;
+    IncrementSolver       springback(shell, contact, schedule.held_without_tools(shell), schedule.n_free_tools(), controls);
     IncrementSolver::Load load = schedule.drawing(record.path, record.path);
     load.contact               = false;
     load.external.push_back({&tool_forces, 1., 1.});
     const auto external = load.external;
-    double     done = 0, step = first_release;
-    while (done < complete)
+    double     done = 0, step = first_release, relaxation = 0;
+    while (done < complete || controls.viscosity > settings.viscosity)
       {
         step    = std::min(step, 1 - done);
-        load.dt = settings.closing_time * step;
+        load.dt = settings.closing_time * std::max(step, relaxation);
         for (std::size_t i = 0; i < external.size(); ++i)
           {
             load.external[i].before = (1 - done) * external[i].after;
@@ -169,15 +173,28 @@ namespace tribodraw
         if (!outcome.converged)
           {
             step *= 0.5;
-            if (step < smallest_release)
+            if (step >= smallest_release)
+              continue;
+            if (controls.viscosity > settings.viscosity)
               fail(outcome);
-            log::info("Unloading: " + outcome.reason + ", the step is halved.");
+            // A flange that only the holder kept flat buckles: it needs something that slows it down.
+            log::info("Unloading: " + outcome.reason + "; it is slowed down by a viscosity.");
+            controls.viscosity = slowing_stiffness * settings.closing_time * first_release;
+            step               = first_release;
             continue;
           }
         done += step;
         record.unloaded = done < complete ? done : 1.;
         if (outcome.iterations <= few_iterations)
           step *= 1.5;
+        if (done >= complete && controls.viscosity > settings.viscosity)
+          {
+            // without load: less and less viscous, in the end not at all
+            relaxation = std::max(4 * relaxation, first_release);
+            if (relaxation > longest_relaxation)
+              controls.viscosity = settings.viscosity;
+            step = 1;
+          }
         advance(load, outcome, Stage::unloading, 0.);
       }
     log::info("Springback: elastic energy " + units::number(1e-3 * record.elastic_energy) + " J is left in the part.");

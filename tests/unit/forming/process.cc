@@ -158,7 +158,8 @@ TEST(Process, HolderFollowsItsForcesOrItsGap)
     }
 
   // Faces 0.9 mm apart: the frames of die and holder lie in their faces.
-  FormingRun gap(coarse_cup({"Process/Blank holder control = gap", "Process/Blank holder gap = 0.9 mm", "Process/Blank holder force = 1 kN"}));
+  FormingRun gap(coarse_cup({"Process/Blank holder control = gap", "Process/Blank holder gap = 0.9 mm", "Process/Blank holder force = 1 kN",
+                             "Solver/Contact stiffness = 1000 MPa/mm", "Solver/Contact transition = 0.02 mm"}));
   gap.simulation->run();
   const auto &tools = gap.simulation->contact().tools();
   EXPECT_NEAR(tools[2].place[2] - tools[0].place[2], 0.9, 1e-6);
