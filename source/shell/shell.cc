@@ -56,7 +56,8 @@ namespace tribodraw
             return !on_plane.empty() && on_plane[triangle[k]] && on_plane[triangle[(k + 1) % 3]];
           };
           result.mirrored[k]
-              = smoothed && !result.present[k] && (both_ends(mesh.on_x_plane) || both_ends(mesh.on_y_plane) || both_ends(mesh.on_z_plane));
+              = smoothed && !result.present[k]
+                && (both_ends(mesh.on_x_plane) || both_ends(mesh.on_y_plane) || both_ends(mesh.on_z_plane));
         }
       return result;
     }

@@ -273,8 +273,8 @@ namespace tribodraw
     }
 
 #if defined(__x86_64__)
-    /// Whether vectorised() uses AVX2 and FMA. Tests clear it to run the SSE2 code on any processor; never to be changed
-    /// while another thread computes.
+    /// Whether vectorised() uses AVX2 and FMA. Tests clear it to run the SSE2 code on any processor; never to be
+    /// changed while another thread computes.
     inline bool use_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 
     template <class Body>
