@@ -18,10 +18,11 @@ namespace tribodraw
     constexpr unsigned few_iterations = 14, many_iterations = 22;
     constexpr double   growth = 1.4, shrinkage = 0.6;
     /// Share of the tool forces that is taken away first, and the smallest step: springback is mostly elastic.
-    constexpr double first_release = 0.25, smallest_release = 1e-2;
+    constexpr double first_release = 0.25, smallest_release = 2e-3;
     /// Of a viscosity in a step of the first size, if the part buckles [MPa/mm]; and how much longer steps become before it
     /// is left away.
     constexpr double slowing_stiffness = 0.5, longest_relaxation = 1e4;
+    constexpr double fine             = 0.01; // of the residual tolerance
     constexpr double smallest_closing = 1e-4;
     constexpr double complete         = 1 - 1e-9;
   } // namespace
@@ -159,6 +160,10 @@ namespace tribodraw
     load.contact               = false;
     load.external.push_back({&tool_forces, 1., 1.});
     const auto external = load.external;
+    // The forces that were there remain the measure of what is unbalanced, a finer one: a free part is soft.
+    controls.residual_tolerance *= fine;
+    load.external.push_back({&tool_forces, 1., 1.});
+    load.external.push_back({&tool_forces, -1., -1.});
     double     done = 0, step = first_release, relaxation = 0;
     while (done < complete || controls.viscosity > settings.viscosity)
       {
@@ -172,6 +177,11 @@ namespace tribodraw
         const auto outcome = springback.solve(load);
         if (!outcome.converged)
           {
+            if (relaxation > smallest_release)
+              {
+                relaxation *= 0.2; // less than the growth of a good step
+                continue;
+              }
             step *= 0.5;
             if (step >= smallest_release)
               continue;
@@ -190,7 +200,7 @@ namespace tribodraw
         if (done >= complete && controls.viscosity > settings.viscosity)
           {
             // without load: less and less viscous, in the end not at all
-            relaxation = std::max(4 * relaxation, first_release);
+            relaxation = std::max((outcome.iterations <= few_iterations ? 4 : 1.5) * relaxation, first_release);
             if (relaxation > longest_relaxation)
               controls.viscosity = settings.viscosity;
             step = 1;
