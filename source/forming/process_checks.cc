@@ -85,6 +85,17 @@ namespace tribodraw
         c.p.warning("'Blank/Element size' is more than half the smallest radius of the tools (" + units::format(radius, "mm") + "): expect ripples in the punch force.");
     }
 
+    /// A surface from a file in the wrong unit.
+    void check_sizes(const Case &c)
+    {
+      for (const auto &tool : c.tools.tools)
+        {
+          const std::string wrong = implausible_size(*tool.geometry, std::max(c.blank.length, c.blank.width));
+          if (!wrong.empty())
+            c.p.problem("Tools/" + tool.name, wrong);
+        }
+    }
+
     void check_holder(const Case &c)
     {
       if (c.tools.holder < 0 || c.process.holder_control != Process::HolderControl::gap)
@@ -188,6 +199,7 @@ namespace tribodraw
           p.problem("Tools", "nothing acts on the blank.", "a tool, a fluid pressure or an edge that is pulled", "Name a tool in 'More tools', or remove a role from 'Without'.");
         Case c{p, blank, tools, process, blank.mesh(), {}};
         c.start = tools.place(blank.thickness, c.mesh.nodes);
+        check_sizes(c);
         check_opening(c);
         check_radii(c);
         check_holder(c);
