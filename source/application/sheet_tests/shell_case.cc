@@ -136,11 +136,11 @@ namespace tribodraw
       surface.n_u     = static_cast<unsigned>(p.integer("U elements", Range::between(1, 2000), "Squares along u."));
       surface.n_v     = static_cast<unsigned>(p.integer(
               "V elements", Range::between(1, 2000), "Squares along v; with the pattern polar, sides of the first ring."));
-      const std::vector<std::string> patterns{ "alternating", "parallel", "crossed", "polar" };
+      const std::vector<std::string> patterns{ "alternating", "uniform", "crossed", "polar" };
       surface.pattern = static_cast<GridPattern>(position_of(
           patterns,
           p.choice("Pattern", patterns,
-                   "How the squares are cut into triangles: by diagonals of alternating or parallel direction, crossed "
+                   "How the squares are cut into triangles: by diagonals of alternating or uniform direction, crossed "
                    "(four triangles), or polar: the side u min is one point and ring k has k times as many sides.",
                    Default{ "alternating", "no direction is preferred" })));
       if (p.documentation_mode())
