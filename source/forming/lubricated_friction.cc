@@ -23,6 +23,7 @@ namespace tribodraw
   {
     const BlankMesh                                                                &mesh = shell.mesh();
     std::array<std::vector<std::shared_ptr<const FrictionTable>>, n_faces> face_tables;
+    reference = mesh.nodes;
     table_of_tool.clear();
     for (std::size_t t = 0; t < contact.tools().size(); ++t)
       {
@@ -124,9 +125,15 @@ namespace tribodraw
   LubricatedFriction::report() const
   {
     const auto &die = faces[static_cast<int>(Face::die_side)]->statistics();
-    char        text[160];
-    std::snprintf(text, sizeof(text), "film: load share %.2f, starved %.2f, P_lub %.1f MPa", die.load_share, die.starved_area_fraction, die.max_lubricant_pressure);
-    return text;
+    char        text[200];
+    std::snprintf(text, sizeof(text), "film: load share %.2f, starved %.2f, lifted %.2f, P_lub %.1f MPa", die.load_share, die.starved_area_fraction,
+                  die.capped_area_fraction, die.max_lubricant_pressure);
+    if (die.max_node < 0)
+      return text;
+    const Eigen::Vector3d &x = reference[die.max_node];
+    char                   where[60];
+    std::snprintf(where, sizeof(where), " at X (%.0f, %.0f)", x[0], x[1]);
+    return std::string(text) + where;
   }
 
   void

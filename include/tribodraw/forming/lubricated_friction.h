@@ -35,6 +35,7 @@ namespace tribodraw
     LubricationSettings                               settings;
     std::array<std::unique_ptr<LubricatedFace>, n_faces> faces;
     std::vector<int>                                  table_of_tool; // within the list of its face
+    std::vector<Eigen::Vector3d>                      reference;     // nodes of the undeformed blank
   };
 } // namespace tribodraw
 
