@@ -142,7 +142,7 @@ namespace tribodraw
     double opened           = 0;
     if (node.in_contact())
       {
-        const bool full = result && data.kind == Kind::film && result->fill[i] >= 1.;
+        const bool full = result && result->fill[i] >= 1.; // on the edge of the blank without pressure
         node.cut_height = advanced_cut_height(state[i], node, contact, node.lubricant_pressure);
         node.regime     = !result || full ? Regime::mixed : Regime::boundary;
         if (full && node.lubricant_pressure >= data.p_limit)
