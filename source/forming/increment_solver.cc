@@ -27,7 +27,7 @@ namespace tribodraw
       options.elastic_blend = far ? elastic_share : 0.;
     }
 
-    /// Relative error of a correction: a Newton step gains a factor of ten or so.
+    /// Relative residual of a correction computed with old factors: a Newton step gains about as much.
     constexpr double linear_tolerance = 5e-2;
     /// A step that gained this much leaves a tangent close to the one before.
     constexpr double similar_below = 0.3;
