@@ -110,6 +110,7 @@ namespace tribodraw
       settings.transition = relative_transition * thickness;
     if (automatic)
       settings.stiffness = relative_pressure * equibiaxial_modulus(shell) / (relative_transition * thickness);
+    stiffest = 10 * settings.stiffness;
   }
 
   void
@@ -312,12 +313,21 @@ namespace tribodraw
   Contact::stiffen()
   {
     double penetration = 0;
-    for (const auto &of_tool : pair)
-      for (const Pair &p : of_tool)
-        penetration = std::max(penetration, p.trial_penetration);
-    if (!automatic || penetration <= deepest_allowed)
+    for (unsigned point = 0; point < points.size(); ++point)
+      {
+        // Between two tools the gap may decide, and no stiffness makes room.
+        std::array<double, n_faces> deepest_of{{0, 0}};
+        for (unsigned t = 0; t < tool.size(); ++t)
+          {
+            double &of_face = deepest_of[static_cast<int>(tool[t].face)];
+            of_face         = std::max(of_face, pair[t][point].trial_penetration);
+          }
+        if (deepest_of[0] == 0 || deepest_of[1] == 0)
+          penetration = std::max({penetration, deepest_of[0], deepest_of[1]});
+      }
+    if (!automatic || penetration <= deepest_allowed || settings.stiffness >= stiffest)
       return false;
-    settings.stiffness *= 1.25 * penetration / deepest_allowed; // pressures grow on
+    settings.stiffness = std::min(stiffest, settings.stiffness * 1.25 * penetration / deepest_allowed); // pressures grow on
     return true;
   }
 } // namespace tribodraw

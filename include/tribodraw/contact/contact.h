@@ -97,7 +97,8 @@ namespace tribodraw
     /// Contact forces of the last assemble() as dead forces on the nodes: to take the tools away by fading them out.
     Loads frozen_forces() const;
 
-    /// Raise an automatic stiffness if a penetration of the last assemble() is too large. Returns true if it did; then the
+    /// Raise an automatic stiffness, at most tenfold, if a penetration of the last assemble() is too large at a point that
+    /// is not between two tools. Returns true if it did; then the
     /// state is no longer in equilibrium.
     bool   stiffen();
     double stiffness() const { return settings.stiffness; } ///< [MPa/mm]
@@ -181,7 +182,7 @@ namespace tribodraw
     std::array<FaceState, n_faces>        faces;
     std::vector<Eigen::Vector3d>          tool_force; // of the last assemble()
     Eigen::VectorXd                       sheet_force;
-    double                                scale = 0, dissipated = 0, stored = 0, energy_at_start = 0, deepest = 0, deepest_allowed = 0;
+    double                                scale = 0, dissipated = 0, stored = 0, energy_at_start = 0, deepest = 0, deepest_allowed = 0, stiffest = 0;
   };
 } // namespace tribodraw
 
