@@ -48,40 +48,40 @@ namespace tribodraw
     add("converged", converged, "");
     if (simulation.process().punch_travel > 0)
       {
-        add("punch travel", r.punch_travel, "mm");
-        add("largest punch force", max_force, "N");
-        add("punch travel at the largest punch force", travel_at_max_force, "mm");
-        add("punch force at the end", r.punch_force, "N");
+        add("punch_travel", r.punch_travel, "mm");
+        add("largest_punch_force", max_force, "N");
+        add("punch_travel_at_the_largest_punch_force", travel_at_max_force, "mm");
+        add("punch_force_at_the_end", r.punch_force, "N");
       }
     else
       add("time", r.time, "s");
-    add("draw-in x", r.draw_in_x, "mm");
-    add("draw-in y", r.draw_in_y, "mm");
-    add("draw-in diagonal", r.draw_in_diagonal, "mm");
+    add("draw_in_x", r.draw_in_x, "mm");
+    add("draw_in_y", r.draw_in_y, "mm");
+    add("draw_in_diagonal", r.draw_in_diagonal, "mm");
     const auto &thickness = simulation.shell().node_thickness();
     const auto  thinnest = std::min_element(thickness.begin(), thickness.end()) - thickness.begin(), thickest = std::max_element(thickness.begin(), thickness.end()) - thickness.begin();
     const auto &start    = simulation.shell().mesh().nodes;
-    add("least thickness of an element", r.min_thickness, "mm");
-    add("least thickness of a node", thickness[thinnest], "mm");
-    add("least thickness at undeformed x", start[thinnest][0], "mm");
-    add("least thickness at undeformed y", start[thinnest][1], "mm");
-    add("greatest thickness of a node", thickness[thickest], "mm");
-    add("greatest thickness at undeformed x", start[thickest][0], "mm");
-    add("greatest thickness at undeformed y", start[thickest][1], "mm");
-    add("largest plastic strain", r.max_eps_p, "");
+    add("least_thickness_of_an_element", r.min_thickness, "mm");
+    add("least_thickness_of_a_node", thickness[thinnest], "mm");
+    add("least_thickness_at_undeformed_x", start[thinnest][0], "mm");
+    add("least_thickness_at_undeformed_y", start[thinnest][1], "mm");
+    add("greatest_thickness_of_a_node", thickness[thickest], "mm");
+    add("greatest_thickness_at_undeformed_x", start[thickest][0], "mm");
+    add("greatest_thickness_at_undeformed_y", start[thickest][1], "mm");
+    add("largest_plastic_strain", r.max_eps_p, "");
     if (r.forming_limit.ratio > 0)
       {
-        add("largest major strain over its forming limit", r.forming_limit.ratio, "");
-        add("nearest to the forming limit at undeformed x", r.forming_limit.place_undeformed[0], "mm");
-        add("nearest to the forming limit at undeformed y", r.forming_limit.place_undeformed[1], "mm");
+        add("largest_major_strain_over_its_forming_limit", r.forming_limit.ratio, "");
+        add("nearest_to_the_forming_limit_at_undeformed_x", r.forming_limit.place_undeformed[0], "mm");
+        add("nearest_to_the_forming_limit_at_undeformed_y", r.forming_limit.place_undeformed[1], "mm");
       }
     add("necked", simulation.necking() != nullptr, "");
     if (const NeckingMonitor *neck = simulation.necking())
       {
-        add("necked at travel", neck->travel(), "mm");
-        add("necked at x", neck->place()[0], "mm");
-        add("necked at y", neck->place()[1], "mm");
-        add("necked at z", neck->place()[2], "mm");
+        add("necked_at_travel", neck->travel(), "mm");
+        add("necked_at_x", neck->place()[0], "mm");
+        add("necked_at_y", neck->place()[1], "mm");
+        add("necked_at_z", neck->place()[2], "mm");
       }
     if (!in_the_tools.empty())
       {
@@ -89,18 +89,18 @@ namespace tribodraw
         double      largest = 0;
         for (std::size_t i = 0; i < now.size(); ++i)
           largest = std::max(largest, (now[i] - in_the_tools[i]).norm());
-        add("largest springback", largest, "mm");
-        add("elastic energy in the tools", 1e-3 * elastic_energy_in_the_tools, "J");
-        add("elastic energy after springback", 1e-3 * r.elastic_energy, "J");
+        add("largest_springback", largest, "mm");
+        add("elastic_energy_in_the_tools", 1e-3 * elastic_energy_in_the_tools, "J");
+        add("elastic_energy_after_springback", 1e-3 * r.elastic_energy, "J");
       }
-    add("external work", 1e-3 * r.external_work, "J");
-    add("plastic work", 1e-3 * r.plastic_work, "J");
-    add("friction work", 1e-3 * r.friction_work, "J");
-    add("elastic energy", 1e-3 * r.elastic_energy, "J");
-    add("stabilisation work", 1e-3 * r.stabilisation_work, "J");
-    add("energy error", r.energy_error(), "");
-    add("largest penetration", max_penetration, "mm");
-    add("Newton iterations", newton_iterations, "");
+    add("external_work", 1e-3 * r.external_work, "J");
+    add("plastic_work", 1e-3 * r.plastic_work, "J");
+    add("friction_work", 1e-3 * r.friction_work, "J");
+    add("elastic_energy", 1e-3 * r.elastic_energy, "J");
+    add("stabilisation_work", 1e-3 * r.stabilisation_work, "J");
+    add("energy_error", r.energy_error(), "");
+    add("largest_penetration", max_penetration, "mm");
+    add("newton_iterations", newton_iterations, "");
     table.save(folder / "results.csv");
   }
 

@@ -46,15 +46,15 @@ def run(program, folder, case, size, force, friction):
     log = (output / "log.txt").read_text()
     with open(output / "history.csv") as file:
         row["increments"] = sum(1 for _ in file) - 1
-    travel, necked = figures["punch travel"], figures["necked"] > 0
+    travel, necked = figures["punch_travel"], figures["necked"] > 0
     row.update(end="neck" if necked else "full travel" if abs(travel - 58) < 1e-9 and done.returncode == 0 else "other",
-               travel_mm=f"{travel:.2f}", largest_force_kn=f"{1e-3 * figures['largest punch force']:.1f}",
-               limit_ratio=f"{figures['largest major strain over its forming limit']:.3f}",
-               least_thickness_mm=f"{figures['least thickness of an element']:.3f}",
-               energy_error=f"{figures['energy error']:.4f}", iterations=int(figures["Newton iterations"]),
+               travel_mm=f"{travel:.2f}", largest_force_kn=f"{1e-3 * figures['largest_punch_force']:.1f}",
+               limit_ratio=f"{figures['largest_major_strain_over_its_forming_limit']:.3f}",
+               least_thickness_mm=f"{figures['least_thickness_of_an_element']:.3f}",
+               energy_error=f"{figures['energy_error']:.4f}", iterations=int(figures["newton_iterations"]),
                cut_backs=log.count("halved"))
     if necked:
-        row.update(neck_x_mm=f"{figures['necked at x']:.1f}", neck_y_mm=f"{figures['necked at y']:.1f}")
+        row.update(neck_x_mm=f"{figures['necked_at_x']:.1f}", neck_y_mm=f"{figures['necked_at_y']:.1f}")
     return row
 
 
