@@ -100,13 +100,13 @@ namespace tribodraw
                                      "Pressure at the open ends and sides above that of the cavitated film.",
                                      Default{ "0 MPa", "small against pressures in bearings" });
       read_cavitation(parameters);
-      if (parameters.has("Load") || parameters.documentation_mode())
-        {
-          fall_load = parameters.quantity("Load", "N", Range::positive(),
-                                          "Asks for the time in which this load brings the surfaces down to `Final gap`.");
-          final_gap = parameters.quantity("Final gap", "um", Range::positive().usual(1e-3, 1e5),
-                                          "Least gap at the end of the fall.");
-        }
+      fall_load = parameters.quantity("Load", "N", Range::non_negative(),
+                                      "Asks for the time in which this load brings the surfaces down to `Final gap`.",
+                                      Default{ "0 N", "no fall" });
+      final_gap = parameters.quantity("Final gap", "um", Range::non_negative(),
+                                      "Least gap at the end of the fall.", Default{ "0 um", "no fall" });
+      if ((fall_load > 0) != (final_gap > 0) && !parameters.has_problems() && !parameters.documentation_mode())
+        parameters.problem(fall_load > 0 ? "Final gap" : "Load", "A fall needs both a load and a final gap.", "more than zero");
     }
     const auto   scope     = parameters.section("Lubricant");
     const double viscosity = parameters.quantity(
