@@ -1,3 +1,4 @@
+#include "film_factors.h"
 #include "film_geometry.h"
 #include "film_terms.h"
 
@@ -40,7 +41,7 @@ namespace tribodraw
     double                          phi_p_floor;
     SparseMatrix                    matrix;
     std::vector<std::array<int, 9>> positions; // of the entries of each triangle in the values of the matrix
-    DirectSolver                    solver{ DirectSolver::Symmetry::unsymmetric, false };
+    FilmFactors                     solver;
 
     // the present problem
     struct CellFlow
