@@ -116,12 +116,14 @@ namespace tribodraw
   void
   Contact::measure_sheet()
   {
+    const bool keep_thickness = settings.initial_thickness && !half_thickness.empty();
     area = points.areas(sheet.committed().position);
     half_thickness.resize(points.size());
     committed_position.resize(points.size());
     for (unsigned point = 0; point < points.size(); ++point)
       {
-        half_thickness[point]     = 0.5 * points.mean(sheet.node_thickness(), point);
+        if (!keep_thickness)
+          half_thickness[point] = 0.5 * points.mean(sheet.node_thickness(), point);
         committed_position[point] = points.position(sheet.committed(), point);
       }
   }

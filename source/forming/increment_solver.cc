@@ -49,6 +49,9 @@ namespace tribodraw
     s.contact.stick_slip = p.quantity("Elastic slip", "mm", Range::positive().usual(1e-4, 0.2),
                                       "Relative displacement over which friction builds up to its full value.",
                                       Default{"0.01 mm", "small against the sliding in one increment; the result does not depend on it"});
+    s.contact.initial_thickness = p.choice("Contact thickness", {"current", "initial"},
+                                           "Thickness that puts the faces of the sheet off its middle surface in contact; initial: as many explicit codes do, for comparison with them.",
+                                           Default{"current", "where the flange thickens decides who carries the blank holder"}) == "initial";
     s.residual_tolerance = p.quantity("Residual tolerance", "", Range::between(1e-12, 1e-1),
                                       "Norm of the unbalanced forces divided by the sum of the contact forces.",
                                       Default{"1e-4", "the last iterations converge quadratically, so that a smaller value costs little"});

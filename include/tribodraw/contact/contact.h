@@ -53,6 +53,7 @@ namespace tribodraw
       double stiffness  = 0; ///< e [MPa/mm]; 0: automatic, see stiffen()
       double transition = 0; ///< d [mm]; 0: 2.5 % of the thickness
       double stick_slip = 0; ///< dc [mm]
+      bool   initial_thickness = false; ///< faces stay where half the initial thickness puts them
     };
     /// Penetration above which an automatic stiffness is raised, by the thickness.
     static constexpr double largest_relative_penetration = 0.028;

@@ -63,10 +63,10 @@ namespace
   {
     Shell   shell;
     Contact contact;
-    Bench(std::vector<ContactTool> tools, const double mu)
+    Bench(std::vector<ContactTool> tools, const double mu, const bool initial_thickness = false)
       : shell(make_quarter_rectangle(4, 4, 2, 2), thickness,
               std::make_shared<SheetMaterial>(2.1e5, 0.3, std::make_shared<Elastic>(), std::make_shared<Strong>()), 3)
-      , contact(shell, std::move(tools), {1000., 0.02, 0.01})
+      , contact(shell, std::move(tools), {1000., 0.02, 0.01, initial_thickness})
     {
       for (const Face f : {Face::punch_side, Face::die_side})
         contact.set_friction(f, std::vector<double>(shell.n_nodes(), mu));
@@ -172,6 +172,26 @@ TEST(Contact, CoulombFriction)
   b.shift({-0.016, -0.012, 0});
   b.residual();
   EXPECT_NEAR(b.contact.tool_forces()[0][0], -0.8 * mu * normal, 1e-9);
+}
+
+// The sheet is stretched by 1 % both ways, so that it thins by 2 nu / (1 - nu) %: its face leaves the floor by half of that, unless
+// the initial thickness is asked for.
+TEST(Contact, FacesFollowTheCurrentThicknessOrNot)
+{
+  for (const bool initial : {false, true})
+    {
+      Bench b({floor_below()}, 0., initial);
+      auto  c = b.shell.trial();
+      for (auto &x : c.position)
+        x = Vector3d(1.01 * x[0], 1.01 * x[1], -0.05);
+      b.shell.set_trial(c);
+      b.commit();
+      b.residual();
+      // logarithmic strains; area 16 mm^2 stretched
+      const double thinner = thickness * (1 - std::exp(-2 * 0.3 / 0.7 * std::log(1.01)));
+      const double gap     = initial ? 0.05 : 0.05 - 0.5 * thinner;
+      EXPECT_NEAR(b.contact.tool_forces()[0][2], -16 * 1.01 * 1.01 * 1000. * gap, 1e-3) << initial;
+    }
 }
 
 // A tool that moves with the sheet rubs nothing: only relative motion counts.
