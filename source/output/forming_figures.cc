@@ -32,10 +32,15 @@ namespace tribodraw::figures
       { "contact_pressure_punch", "Contact pressure, punch side", "Pressure", false },
       { "film_thickness_die", "Film thickness, die side", "Film thickness", false },
       { "film_thickness_punch", "Film thickness, punch side", "Film thickness", false },
+      { "contact_fraction_die", "Real contact area, die side", "Share of the area", false },
+      { "phi_p_die", "Pressure flow factor, die side", "Pressure flow factor", false },
+      { "phi_s_die", "Shear flow factor, die side", "Shear flow factor", false },
     };
     constexpr MapInfo cell_maps[] = {
       { "thickness", "Sheet thickness", "Thickness", true },
       { "eps_p", "Equivalent plastic strain", "Plastic strain", false },
+      { "major_strain", "Major strain", "Logarithmic strain", false },
+      { "minor_strain", "Minor strain", "Logarithmic strain", false },
       { "flc_margin", "Margin to the forming limit", "Margin", false },
     };
 
