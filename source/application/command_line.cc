@@ -20,6 +20,7 @@ namespace tribodraw
             { "--resume", "", "go on from the newest checkpoint in the output folder" },
             { "--validate", "", "read and check everything, say what would run, stop" },
             { "--quiet", "", "print warnings and errors only" },
+            { "--verbose", "", "print a line a step also where the output is not a terminal" },
             { "--help", "", "print this text" },
             { "--version", "", "print the versions of the program and of its libraries" } };
 
@@ -162,9 +163,12 @@ namespace tribodraw
         line.resume   = line.resume || name == "--resume";
         line.validate = line.validate || name == "--validate";
         line.quiet    = line.quiet || name == "--quiet";
+        line.verbose  = line.verbose || name == "--verbose";
         line.help     = line.help || name == "--help";
         line.version  = line.version || name == "--version";
       }
+    if (line.quiet && line.verbose)
+      throw InputError(describe_error("--quiet and --verbose contradict each other.", "command line"));
     if (line.help || line.version)
       return line;
     if (!line.arguments.empty() && find_verb(line.arguments.front()) != nullptr)

@@ -113,6 +113,7 @@ namespace tribodraw
       context.output_folder        = line.output.empty() ? fs::path("output") / file.stem() : line.output;
       context.resume               = line.resume;
       context.effective_parameters = parameters.effective();
+      context.input_hashes         = input_hashes(parameters);
       check_output_folder(context.output_folder);
       if (line.validate)
         {
@@ -135,6 +136,8 @@ namespace tribodraw
       for (const auto &text : warnings)
         log::warning(text);
       log::info(task->describe());
+      if (line.resume && !task->has_checkpoints())
+        log::info("This task keeps no checkpoints: it begins again. Friction tables that were finished are used.");
       run_task(*task, context);
       log::info("Results: " + context.output_folder.string() + ", report: " + context.file("report.html").string());
       log::close_file();
@@ -144,7 +147,9 @@ namespace tribodraw
     run_command_line(const std::vector<std::string> &words)
     {
       const CommandLine line = CommandLine::parse(words);
-      log::set_level(line.quiet ? log::Level::quiet : log::Level::normal);
+      log::set_level(line.quiet     ? log::Level::quiet
+                     : line.verbose ? log::Level::verbose
+                                    : log::Level::normal);
       if (line.help || line.version)
         {
           if (parallel::rank() == 0)
@@ -179,9 +184,9 @@ namespace tribodraw
     fail(const int code, const std::string &message, MPI_Comm communicator)
     {
       const bool alone = parallel::size() == 1;
-      // The log is closed by now or has its own lines; the terminal gets the message exactly once.
       if (parallel::rank() == 0)
         {
+          log::to_file(message);
           log::close_file();
           std::cerr << "tribodraw: " << message << std::endl;
         }

@@ -68,6 +68,21 @@ namespace tribodraw
     return values;
   }
 
+  std::map<std::string, std::string>
+  input_hashes(const Parameters &parameters)
+  {
+    std::map<std::string, std::string> hashes;
+    const auto                         values = effective_values(parameters.effective());
+    for (const EntryInfo &entry : parameters.entries())
+      if (const auto value = values.find(entry.path);
+          entry.type == "file name" && value != values.end() && !value->second.empty())
+        {
+          const std::filesystem::path given = value->second;
+          hashes[entry.path] = hash_text(read_file(given.is_absolute() ? given : parameters.base_folder() / given));
+        }
+    return hashes;
+  }
+
   std::string
   run_info(const Parameters &parameters, const std::filesystem::path &parameter_file)
   {
@@ -75,14 +90,8 @@ namespace tribodraw
     text += "parameters " + hash_text(parameters.effective()) + " (effective.prm)\n";
     text += "input " + hash_text(read_file(parameter_file)) + " " + parameter_file.filename().string() + "\n";
     const auto values = effective_values(parameters.effective());
-    for (const EntryInfo &entry : parameters.entries())
-      if (const auto value = values.find(entry.path);
-          entry.type == "file name" && value != values.end() && !value->second.empty())
-        {
-          const std::filesystem::path given = value->second;
-          const auto                  file  = given.is_absolute() ? given : parameters.base_folder() / given;
-          text += "input " + hash_text(read_file(file)) + " " + given.string() + " (" + entry.path + ")\n";
-        }
+    for (const auto &[path, hash] : input_hashes(parameters))
+      text += "input " + hash + " " + values.at(path) + " (" + path + ")\n";
     return text;
   }
 

@@ -146,7 +146,7 @@ namespace tribodraw
     std::string content = magic;
     append_number(content, crc32_z(0, reinterpret_cast<const Bytef *>(body.data()), body.size()));
     append_number(content, body.size());
-    write_file(file, content + body);
+    write_file(file, content + body, /*durable=*/true);
   }
 
   Archive

@@ -1,6 +1,9 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,11 +15,24 @@ namespace tribodraw
 {
   namespace fs = std::filesystem;
 
+  namespace
+  {
+    /// Remember the names of the folder's files on the disk. Not every file system can; the content is there either way.
+    void sync_folder(const fs::path &folder)
+    {
+      const int handle = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+      if (handle < 0)
+        return;
+      fsync(handle);
+      close(handle);
+    }
+  } // namespace
+
   void
-  write_file(const fs::path &file, const std::string &content)
+  write_file(const fs::path &file, const std::string &content, const bool durable)
   {
     fs::path temporary = file;
-    temporary += ".tmp";
+    temporary += partial_file_extension;
     const auto fail = [&](const std::string &doing) {
       const std::string reason = std::strerror(errno);
       std::error_code   ignored;
@@ -28,10 +44,14 @@ namespace tribodraw
       fail("create the file");
     if (std::fwrite(content.data(), 1, content.size(), stream.get()) != content.size())
       fail("write the file");
+    if (durable && (std::fflush(stream.get()) != 0 || fsync(fileno(stream.get())) != 0))
+      fail("write the file");
     if (std::fclose(stream.release()) != 0)
       fail("write the file");
     if (std::rename(temporary.c_str(), file.c_str()) != 0)
       fail("rename the finished file");
+    if (durable)
+      sync_folder(file.parent_path());
   }
 
   std::string
@@ -69,6 +89,9 @@ namespace tribodraw
         throw InputError(describe_error("the output folder is not writable.", folder.string(), "", "", "Choose a writable folder with --output."));
     }
     fs::remove(probe, error);
+    for (const auto &entry : fs::directory_iterator(folder, error))
+      if (entry.path().extension() == partial_file_extension)
+        fs::remove(entry.path(), error);
   }
 
   std::string

@@ -68,11 +68,14 @@ namespace tribodraw
 
     void info(const std::string &text) { emit(text, state().level != Level::quiet); }
 
-    void debug(const std::string &text)
+    void step(const std::string &text)
     {
-      if (state().level == Level::debug)
-        emit(text, true);
+      static const bool terminal = isatty(STDOUT_FILENO);
+      const Level       level    = state().level;
+      emit(text, level == Level::verbose || (level == Level::normal && terminal));
     }
+
+    void to_file(const std::string &text) { emit(text, false); }
 
     void warning(const std::string &text)
     {
@@ -105,24 +108,31 @@ namespace tribodraw
     return text;
   }
 
-  Progress::Progress(std::string what, const double amount)
+  Progress::Progress(std::string what, const double amount, const double done_before)
     : label(std::move(what))
     , total(amount > 0 ? amount : 1)
+    , before(done_before)
     , start(std::chrono::steady_clock::now())
     , last_draw(start - std::chrono::hours(1))
   {}
 
   Progress::~Progress() = default;
 
+  std::string
+  Progress::times(const double done) const
+  {
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double to_go   = done > before ? elapsed * std::fmax(0., total - done) / (done - before) : NAN;
+    return format_duration(elapsed) + " elapsed, " + format_duration(to_go) + " to go";
+  }
+
   void
   Progress::update(const double done, const std::string &detail)
   {
-    const auto   now      = std::chrono::steady_clock::now();
-    const double fraction = std::fmin(1., std::fmax(0., done / total));
-    const double elapsed  = std::chrono::duration<double>(now - start).count();
-    const double eta      = fraction > 0 ? elapsed * (1 - fraction) / fraction : NAN;
-    const std::string text = label + ": " + std::to_string(std::lround(100 * fraction)) + " %, " + format_duration(elapsed) +
-                             " elapsed, " + (fraction > 0 ? format_duration(eta) + " to go" : "") + (detail.empty() ? "" : ", " + detail);
+    const auto        now      = std::chrono::steady_clock::now();
+    const double      fraction = std::fmin(1., std::fmax(0., done / total));
+    const double      elapsed  = std::chrono::duration<double>(now - start).count();
+    const std::string text = label + ": " + std::to_string(std::lround(100 * fraction)) + " %, " + times(done) + (detail.empty() ? "" : ", " + detail);
     if (log::interactive())
       {
         if (now - last_draw < std::chrono::milliseconds(200))

@@ -110,7 +110,8 @@ namespace tribodraw
   NeckingMonitor::save(Archive &archive) const
   {
     archive.put("necking/thinning", last_thinning);
-    archive.put("necking/state", std::vector<double>{last_path, largest_force, neck_travel, neck_place[0], neck_place[1], neck_place[2], slowest});
+    archive.put("necking/state", std::vector<double>{last_path, largest_force, neck_travel, neck_place[0], neck_place[1], neck_place[2], slowest, seen_path, critical.ratio, static_cast<double>(critical.element),
+                                                           critical.place[0], critical.place[1], critical.place[2], critical.place_undeformed[0], critical.place_undeformed[1], critical.place_undeformed[2]});
     archive.put("necking/reason", why);
   }
 
@@ -118,12 +119,14 @@ namespace tribodraw
   NeckingMonitor::load(const Archive &archive)
   {
     last_thinning     = archive.numbers("necking/thinning", last_thinning.size());
-    const auto &state = archive.numbers("necking/state", 7);
+    const auto &state = archive.numbers("necking/state", 16);
     last_path         = state[0];
     largest_force     = state[1];
     neck_travel       = state[2];
     neck_place        = {state[3], state[4], state[5]};
     slowest           = state[6];
+    seen_path         = state[7];
+    critical          = {state[8], static_cast<unsigned>(state[9]), {state[10], state[11], state[12]}, {state[13], state[14], state[15]}};
     why               = archive.text("necking/reason");
   }
 } // namespace tribodraw

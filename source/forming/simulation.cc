@@ -68,8 +68,8 @@ namespace tribodraw
           {
             step *= 0.5;
             if (step < smallest_closing)
-              fail(outcome);
-            log::info("Closing: " + outcome.reason + ", the step is halved.");
+              fail(*solver, outcome, Stage::closing);
+            log::step("Closing: " + outcome.reason + ", the step is halved.");
             continue;
           }
         closed += step;
@@ -87,8 +87,8 @@ namespace tribodraw
   Simulation::Implementation::draw()
   {
     const double target = schedule.length();
-    Progress     progress("Drawing", target);
-    while (record.path < target * (1 - 1e-12) && !ends_with_neck())
+    Progress     progress("Drawing", target, record.path);
+    while (!is_drawn() && !ends_with_neck())
       {
         const double remaining = target - record.path;
         double       step      = std::min(next_increment, remaining);
@@ -98,12 +98,12 @@ namespace tribodraw
         const auto outcome = solver->solve(load);
         if (!outcome.converged)
           {
-            log::info("   " + units::format(record.path, "mm") + ": " + outcome.reason + " with an increment of " + units::format(step, "mm") + ", halved.");
+            log::step("   " + units::format(record.path, "mm") + ": " + outcome.reason + " with an increment of " + units::format(step, "mm") + ", halved.");
             next_increment = 0.5 * step;
             if (next_increment >= settings.smallest_increment)
               continue;
             if (!monitor || !monitor->limit_exceeded())
-              fail(outcome);
+              fail(*solver, outcome, Stage::drawing);
             monitor->without_equilibrium(outcome.reason);
             break;
           }
@@ -117,7 +117,7 @@ namespace tribodraw
             log::info("The blank holder rests on its spacers.");
             stop_holder();
           }
-        report_step();
+        report_step(progress);
         progress.update(record.path);
         write_checkpoint();
       }
@@ -148,11 +148,6 @@ namespace tribodraw
       o->unloading(owner);
     log::info("The tools are taken away.");
     tools_away = true;
-    if (contact.force_scale() == 0) // nothing has been solved since a restart
-      {
-        Eigen::VectorXd unused = Eigen::VectorXd::Zero(shell.n_dofs() + schedule.n_free_tools());
-        contact.assemble(unused, nullptr, {});
-      }
     const Loads           tool_forces = contact.frozen_forces();
     SolverSettings        controls    = settings;
     IncrementSolver       springback(shell, contact, schedule.held_without_tools(shell), schedule.n_free_tools(), controls);
@@ -186,7 +181,7 @@ namespace tribodraw
             if (step >= smallest_release)
               continue;
             if (controls.viscosity > settings.viscosity)
-              fail(outcome);
+              fail(springback, outcome, Stage::unloading);
             // A flange that only the holder kept flat buckles: it needs something that slows it down.
             log::info("Unloading: " + outcome.reason + "; it is slowed down by a viscosity.");
             controls.viscosity = slowing_stiffness * settings.closing_time * first_release;
@@ -231,10 +226,12 @@ namespace tribodraw
   void
   Simulation::run()
   {
+    if (data->n_committed == 0)
+      data->remove_checkpoints();
     if (data->closed < 1)
       data->close();
     data->draw();
-    if (data->process.unloading && !data->ends_with_neck() && data->record.path >= data->schedule.length() * (1 - 1e-12))
+    if (data->process.unloading && !data->ends_with_neck() && data->is_drawn())
       data->unload();
     for (const auto &o : data->observers)
       o->finished(*this, true);

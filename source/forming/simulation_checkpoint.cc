@@ -6,6 +6,7 @@
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
 
+#include <map>
 #include <sstream>
 
 namespace tribodraw
@@ -14,27 +15,51 @@ namespace tribodraw
   {
     const char *const checkpoint_names[2] = {"checkpoint_1.bin", "checkpoint_2.bin"};
 
-    /// Throws InputError naming the first line in which the two texts differ.
-    void check_identity(const std::string &checkpoint, const std::string &now)
+    /// `path = value` lines as a map.
+    std::map<std::string, std::string> entries(const std::string &lines)
     {
-      std::istringstream old_lines(checkpoint), new_lines(now);
-      for (;;)
+      std::map<std::string, std::string> result;
+      std::istringstream                 in(lines);
+      for (std::string line; std::getline(in, line);)
         {
-          std::string old_line, new_line;
-          const bool  has_old = static_cast<bool>(std::getline(old_lines, old_line)), has_new = static_cast<bool>(std::getline(new_lines, new_line));
-          if (!has_old && !has_new)
-            return;
-          if (old_line != new_line)
-            throw InputError(describe_error("these parameters must be the same when a run is resumed.", "--resume", "'" + new_line + "'",
-                                            "'" + old_line + "' (of the checkpoint)",
-                                            "Only 'Process/Punch travel' and entries of 'Solver' and 'Output' may change."));
+          const auto equals                  = line.find(" = ");
+          result[line.substr(0, equals)] = equals == std::string::npos ? "" : line.substr(equals + 3);
         }
+      return result;
     }
 
-    /// What cannot be found again from the states of the parts.
-    std::array<double *, 7> figures(IncrementRecord &r)
+    /// Throws InputError naming every entry in which the two texts differ.
+    void check_identity(const std::string &checkpoint, const std::string &now)
     {
-      return {{&r.time, &r.path, &r.punch_force, &r.die_force, &r.blank_holder_force, &r.external_work, &r.stabilisation_work}};
+      auto                                     before = entries(checkpoint), after = entries(now);
+      std::map<std::string, std::string>       all    = before;
+      std::string                              differences;
+      const auto                               shown = [](const std::map<std::string, std::string> &values, const std::string &path) {
+        const auto found = values.find(path);
+        return found == values.end() ? std::string("absent") : "'" + found->second + "'";
+      };
+      all.insert(after.begin(), after.end());
+      for (const auto &[path, value] : all)
+        if (shown(before, path) != shown(after, path))
+          differences += "\n  " + path + ": " + shown(after, path) + " now, " + shown(before, path) + " in the checkpoint";
+      if (!differences.empty())
+        throw InputError("--resume: a run goes on with the parameters with which it began. These differ:" + differences +
+                         "\nWhat may change: 'Process/Punch travel' and the entries of 'Solver' and 'Output'. Start without --resume, or in another folder with --output.");
+    }
+
+    /// Of all quantities of the record, which an observer at the end of a resumed run may ask for.
+    std::vector<double *> figures(IncrementRecord &r)
+    {
+      std::vector<double *> result{&r.time, &r.path, &r.punch_travel, &r.punch_force, &r.die_force, &r.blank_holder_force, &r.force_imbalance,
+                                   &r.draw_in_x, &r.draw_in_y, &r.draw_in_diagonal, &r.min_thickness, &r.max_eps_p, &r.unloaded,
+                                   &r.friction.starved_area_fraction, &r.friction.lubricant_volume_error, &r.increment, &r.residual, &r.max_penetration,
+                                   &r.external_work, &r.elastic_energy, &r.plastic_work, &r.friction_work, &r.contact_energy, &r.stabilisation_work,
+                                   &r.forming_limit.ratio};
+      for (unsigned f = 0; f < n_faces; ++f)
+        result.insert(result.end(), {&r.friction.max_lubricant_pressure[f], &r.friction.mean_mu[f]});
+      for (unsigned c = 0; c < 3; ++c)
+        result.insert(result.end(), {&r.forming_limit.place[c], &r.forming_limit.place_undeformed[c]});
+      return result;
     }
   } // namespace
 
@@ -42,6 +67,9 @@ namespace tribodraw
   Simulation::Implementation::write_checkpoint()
   {
     if (checkpoint_distance <= 0 || record.path < last_checkpoint + checkpoint_distance)
+      return;
+    // A resumed run solves at least one increment, so that whatever follows the drawing finds the state of a solver.
+    if (is_drawn() || ends_with_neck())
       return;
     const timing::Scope scope("forming/checkpoint");
     last_checkpoint = record.path;
@@ -60,7 +88,10 @@ namespace tribodraw
     for (const double *value : figures(record))
       values.push_back(*value);
     archive.put("simulation/last force", forces);
+    values.insert(values.end(), {static_cast<double>(record.newton_iterations), static_cast<double>(record.forming_limit.element)});
     archive.put("simulation/record", values);
+    const Eigen::VectorXd &held = solver->reactions();
+    archive.put("simulation/reactions", std::vector<double>(held.data(), held.data() + held.size()));
     archive.put("simulation/parameters", identity);
     if (parallel::rank() == 0)
       archive.save(checkpoint_folder / checkpoint_names[checkpoint_slot]);
@@ -88,11 +119,27 @@ namespace tribodraw
     const auto &forces = archive.numbers("simulation/last force", 3 * last_force.size());
     for (std::size_t t = 0; t < last_force.size(); ++t)
       last_force[t] = Eigen::Vector3d(forces[3 * t], forces[3 * t + 1], forces[3 * t + 2]);
-    const auto  saved   = figures(record);
-    const auto &values  = archive.numbers("simulation/record", saved.size());
+    const auto  saved  = figures(record);
+    const auto &values = archive.numbers("simulation/record", saved.size() + 2);
     for (std::size_t i = 0; i < saved.size(); ++i)
       *saved[i] = values[i];
-    record.punch_travel = tools.punch >= 0 ? record.path : 0.;
+    record.newton_iterations     = static_cast<unsigned>(values[saved.size()]);
+    record.forming_limit.element = static_cast<unsigned>(values[saved.size() + 1]);
+    const auto &reactions        = archive.numbers("simulation/reactions", solver->reactions().size());
+    solver->set_reactions(Eigen::Map<const Eigen::VectorXd>(reactions.data(), static_cast<Eigen::Index>(reactions.size())));
+    if (is_drawn())
+      throw InputError(describe_error("the checkpoint is beyond the end of this run.", "--resume, Process/Punch travel", units::format(schedule.length(), "mm"),
+                                      "more than " + units::format(record.path, "mm"), "Start without --resume for a shorter run."));
+  }
+
+  void
+  Simulation::Implementation::remove_checkpoints() const
+  {
+    if (checkpoint_folder.empty() || parallel::rank() != 0)
+      return;
+    std::error_code ignored;
+    for (const char *name : checkpoint_names)
+      std::filesystem::remove(checkpoint_folder / name, ignored);
   }
 
   void

@@ -1,6 +1,7 @@
 #ifndef tribodraw_forming_simulation_implementation_h
 #define tribodraw_forming_simulation_implementation_h
 
+#include <tribodraw/base/log.h>
 #include <tribodraw/forming/schedule.h>
 #include <tribodraw/forming/simulation.h>
 
@@ -52,6 +53,7 @@ namespace tribodraw
     void   stop_holder();
     double holder_height() const; // of its face above that of the die [mm]
     bool ends_with_neck() const;
+    bool is_drawn() const { return record.path >= schedule.length() * (1 - 1e-12); }
 
     // a converged increment: figures, history, friction, observers
     enum class Stage
@@ -68,11 +70,16 @@ namespace tribodraw
     double press_force() const;        // that drives the process, full part [N or MPa]
     void   find_edge_nodes();
     double draw_in(unsigned which) const;
-    void   report_step() const;
+    void   report_step(const Progress &progress) const;
 
-    [[noreturn]] void fail(const IncrementSolver::Outcome &outcome);
+    /// Tell the observers and throw a ConvergenceError that says where and why.
+    [[noreturn]] void fail(const IncrementSolver &solver, const IncrementSolver::Outcome &outcome, Stage stage);
+
+    std::string       tool_at(unsigned node) const; // name, or "no tool"
+    std::string       diagnosis(const std::vector<unsigned> &worst, const IncrementSolver::Outcome &outcome, Stage stage) const;
 
     void write_checkpoint();
+    void remove_checkpoints() const; // of an earlier run in the same folder
     void restore(const Archive &archive);
   };
 } // namespace tribodraw

@@ -160,48 +160,20 @@ namespace tribodraw
   }
 
   void
-  Simulation::Implementation::report_step() const
+  Simulation::Implementation::report_step(const Progress &progress) const
   {
-    char text[400];
+    std::size_t touching[n_faces] = {};
+    for (const Face f : {Face::punch_side, Face::die_side})
+      for (const int tool : contact.face(f).tool)
+        touching[static_cast<unsigned>(f)] += tool >= 0;
+    const unsigned punch = static_cast<unsigned>(Face::punch_side), die = static_cast<unsigned>(Face::die_side);
+    char           text[500];
     std::snprintf(text, sizeof(text),
-                  "%6.2f mm  %5.1f %%  step %.3f  its %2u  residual %.0e  punch %.2f kN  t_min %.3f mm  mu die %.4f punch %.4f  energy %+.2f %%",
+                  "%6.2f mm  %5.1f %%  step %.3f  its %2u  residual %.0e  force %.2f kN  t_min %.3f mm  contact die %zu punch %zu nodes  mu die %.4f punch %.4f  energy %+.2f %%  %s",
                   record.path, 100 * record.path / schedule.length(), record.increment, record.newton_iterations,
-                  record.residual, 1e-3 * record.punch_force, record.min_thickness, record.friction.mean_mu[1], record.friction.mean_mu[0],
-                  100 * record.energy_error());
+                  record.residual, 1e-3 * press_force(), record.min_thickness, touching[die], touching[punch], record.friction.mean_mu[die],
+                  record.friction.mean_mu[punch], 100 * record.energy_error(), progress.times(record.path).c_str());
     const std::string extra = friction->report();
-    log::info(std::string(text) + (extra.empty() ? "" : "  " + extra));
-  }
-
-  void
-  Simulation::Implementation::fail(const IncrementSolver::Outcome &outcome)
-  {
-    std::vector<std::pair<double, unsigned>> worst;
-    const Eigen::VectorXd                   &R = solver->residual();
-    for (unsigned i = 0; i < shell.n_nodes(); ++i)
-      worst.emplace_back(Vector3d(R[shell.dof(i, 0)], R[shell.dof(i, 1)], R[shell.dof(i, 2)]).norm(), i);
-    std::sort(worst.rbegin(), worst.rend());
-    std::string text = "The increment at punch travel " + units::format(record.path, "mm") + " does not converge at the smallest size of " +
-                       units::format(settings.smallest_increment, "mm") + ": " + outcome.reason +
-                       ". The last converged state has been written.\nLargest unbalanced forces:";
-    for (unsigned k = 0; k < 5 && k < worst.size(); ++k)
-      {
-        const unsigned  i    = worst[k].second;
-        const Vector3d &x    = shell.committed().position[i];
-        std::string     tool = "no tool";
-        for (const Face f : {Face::punch_side, Face::die_side})
-          if (contact.face(f).tool[i] >= 0)
-            tool = contact.tools()[contact.face(f).tool[i]].name;
-        char line[200];
-        std::snprintf(line, sizeof(line), "\n  node %u at (%.2f, %.2f, %.2f) mm, %.3g N, touching %s", i, x[0], x[1], x[2], worst[k].first, tool.c_str());
-        text += line;
-      }
-    text += "\nTry a smaller 'Solver/Contact stiffness', a finer 'Blank/Element size', or look for necking: smallest thickness " +
-            units::format(record.min_thickness, "mm") + " of " + units::format(blank.thickness, "mm") + ".";
-    if (process.fluid_pressure)
-      text += " A fluid pressure has a maximum beyond which the sheet has no equilibrium: it is " +
-              units::format(process.fluid_pressure->value(schedule.time(record.path)), "MPa") + " here.";
-    for (const auto &o : observers)
-      o->finished(owner, false);
-    throw ConvergenceError(text);
+    log::step(std::string(text) + (extra.empty() ? "" : "  " + extra));
   }
 } // namespace tribodraw

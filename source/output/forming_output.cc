@@ -1,3 +1,4 @@
+#include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/output/forming_output.h>
 
@@ -47,6 +48,14 @@ namespace tribodraw
       std::vector<bool> integer(n, false);
       integer[column] = true;
       return integer;
+    }
+
+    std::string
+    step_name(const unsigned step)
+    {
+      char name[40];
+      std::snprintf(name, sizeof(name), "solution_%04u.vtu", step);
+      return name;
     }
 
     const char *
@@ -138,6 +147,7 @@ namespace tribodraw
     restore(history, archive.numbers("output/history"), integer_is(history.columns().size(), 16));
     restore(energy, archive.numbers("output/energy"), integer_is(energy.columns().size(), 12));
     restore(tools, archive.numbers("output/tools"), integer_is(tools.columns().size(), 2));
+    log::info("history.csv is cut back to its " + std::to_string(history.rows().size()) + " rows at the checkpoint.");
   }
 
   FieldWriter::FieldWriter(std::filesystem::path output_folder, const double distance,
@@ -210,14 +220,26 @@ namespace tribodraw
     SurfaceFields fields = collect(simulation);
     fields.time          = r.time;
     fields.cycle         = step;
-    char name[40];
-    std::snprintf(name, sizeof(name), "solution_%04u.vtu", step++);
+    if (step == 0)
+      remove_steps_from(0); // of an earlier run in the same folder
+    const std::string name = step_name(step++);
     if (parallel::rank() == 0)
       write_vtu(folder / name, fields);
     collection.add(r.time, name);
+    times.push_back(r.time);
     if (parallel::rank() == 0)
       collection.save(folder / "solution.pvd");
     last_written = r.time;
+  }
+
+  void
+  FieldWriter::remove_steps_from(const unsigned first) const
+  {
+    std::error_code ignored;
+    if (parallel::rank() == 0)
+      for (unsigned k = first; std::filesystem::remove(folder / step_name(k), ignored); ++k)
+        {
+        }
   }
 
   void
@@ -243,6 +265,18 @@ namespace tribodraw
     if (simulation.record().time != last_written)
       write_step(simulation, simulation.record());
     in_the_tools = simulation.shell().committed().position;
+  }
+
+  void
+  FieldWriter::failed(const Simulation &simulation, const std::vector<Vector3d> &unbalanced)
+  {
+    SurfaceFields fields                    = collect(simulation);
+    fields.time                             = simulation.record().time;
+    fields.cycle                            = step;
+    fields.node_vectors["unbalanced_force"] = unbalanced;
+    fields.units["unbalanced_force"]        = "N";
+    if (parallel::rank() == 0)
+      write_vtu(folder / "not_converged.vtu", fields);
   }
 
   void
@@ -310,21 +344,33 @@ namespace tribodraw
     std::vector<double> values = { next_travel, static_cast<double>(step), previous_time, last_written };
     for (const auto &x : previous_position)
       values.insert(values.end(), { x[0], x[1], x[2] });
+    for (const auto &v : velocity)
+      values.insert(values.end(), { v[0], v[1], v[2] });
     archive.put("output/fields", values);
+    archive.put("output/times", times);
   }
 
   void
   FieldWriter::load(const Archive &archive)
   {
     const auto &values = archive.numbers("output/fields");
-    next_travel        = values[0];
-    step               = static_cast<unsigned>(values[1]);
-    previous_time      = values[2];
-    last_written       = values[3];
+    next_travel        = values.at(0);
+    step               = static_cast<unsigned>(values.at(1));
+    previous_time      = values.at(2);
+    last_written       = values.at(3);
     previous_position.clear();
-    for (std::size_t i = 4; i + 2 < values.size(); i += 3)
-      previous_position.emplace_back(values[i], values[i + 1], values[i + 2]);
-    collection = PvdCollection::load(folder / "solution.pvd");
-    collection.truncate(last_written);
+    velocity.clear();
+    const std::size_t n_nodes = (values.size() - 4) / 6;
+    for (std::size_t i = 0; i < 2 * n_nodes; ++i)
+      (i < n_nodes ? previous_position : velocity)
+          .emplace_back(values[4 + 3 * i], values[5 + 3 * i], values[6 + 3 * i]);
+    // Steps after the checkpoint are written again, or belong to a run that ended elsewhere.
+    times      = archive.numbers("output/times", step);
+    collection = {};
+    for (unsigned k = 0; k < step; ++k)
+      collection.add(times[k], step_name(k));
+    remove_steps_from(step);
+    if (parallel::rank() == 0)
+      collection.save(folder / "solution.pvd");
   }
 } // namespace tribodraw

@@ -6,7 +6,6 @@
 #include <deal.II/base/data_out_base.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 #include <tuple>
 
@@ -105,14 +104,6 @@ namespace tribodraw
     entries.emplace_back(time, name);
   }
 
-  void
-  PvdCollection::truncate(const double time)
-  {
-    entries.erase(
-        std::remove_if(entries.begin(), entries.end(), [time](const auto &entry) { return entry.first > time; }),
-        entries.end());
-  }
-
   // deal.II's write_pvd_record() puts the date into the file; ours must be the same bytes for the same run.
   void
   PvdCollection::save(const std::filesystem::path &file) const
@@ -123,25 +114,5 @@ namespace tribodraw
     for (const auto &[time, name] : entries)
       text += "    <DataSet timestep=\"" + units::number(time) + "\" group=\"\" part=\"0\" file=\"" + name + "\"/>\n";
     write_file(file, text + "  </Collection>\n</VTKFile>\n");
-  }
-
-  PvdCollection
-  PvdCollection::load(const std::filesystem::path &file)
-  {
-    PvdCollection collection;
-    if (!std::filesystem::exists(file))
-      return collection;
-    std::istringstream text(read_file(file));
-    const auto         attribute = [](const std::string &line, const std::string &name) {
-      const auto begin = line.find(name + "=\"");
-      if (begin == std::string::npos)
-        return std::string();
-      const auto from = begin + name.size() + 2;
-      return line.substr(from, line.find('"', from) - from);
-    };
-    for (std::string line; std::getline(text, line);)
-      if (line.find("<DataSet") != std::string::npos)
-        collection.add(std::strtod(attribute(line, "timestep").c_str(), nullptr), attribute(line, "file"));
-    return collection;
   }
 } // namespace tribodraw

@@ -16,7 +16,7 @@ namespace tribodraw
     std::filesystem::path    output; ///< empty: default
     std::vector<std::string> settings;
     std::map<std::string, std::string> verb_options; ///< options of the verb that were given, by name
-    bool                     resume = false, validate = false, quiet = false, help = false, version = false;
+    bool                     resume = false, validate = false, quiet = false, verbose = false, help = false, version = false;
 
     /// @param words without the name of the program. Throws InputError with the nearest known word for a mistyped
     /// option or verb, and for options that have no effect together.

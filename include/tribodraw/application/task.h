@@ -2,6 +2,7 @@
 #define tribodraw_application_task_h
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace tribodraw
     bool                     resume = false;       ///< go on from the newest checkpoint in the output folder
     std::string              effective_parameters; ///< text of effective.prm, defaults included
     std::filesystem::path    parameter_file;
+    std::map<std::string, std::string> input_hashes; ///< of the contents of the files that the parameters name, by entry
     std::vector<std::string> settings; ///< `Section/Entry = value` of the command line, which override the file
 
     /// Path of a file in the output folder.
@@ -46,6 +48,13 @@ namespace tribodraw
     /// timing.csv are made afterwards by the program from the files in the output folder.
     /// Throws ConvergenceError when a solver gives up, after the last state has been written.
     virtual void run(const RunContext &context) = 0;
+
+    /// Whether run() writes checkpoints and honours RunContext::resume. Other tasks begin again when they are resumed.
+    virtual bool
+    has_checkpoints() const
+    {
+      return false;
+    }
   };
 } // namespace tribodraw
 

@@ -10,7 +10,12 @@ namespace tribodraw
   /// Messages of the run: to the terminal (rank 0 only) and, once a file is opened, to log.txt.
   namespace log
   {
-    enum class Level { quiet, normal, debug };
+    enum class Level
+    {
+      quiet,  ///< warnings and errors only
+      normal, ///< steps as well if standard output is a terminal
+      verbose ///< steps in any case
+    };
 
     void set_level(Level level);
     /// Start writing to @p file as well (earlier messages are copied there). @param append keep what is there (resumed runs)
@@ -18,7 +23,10 @@ namespace tribodraw
     void close_file();
 
     void info(const std::string &text);
-    void debug(const std::string &text);
+    /// One of many like it: a line a step. Always in log.txt, on the terminal as the level says.
+    void step(const std::string &text);
+    /// In log.txt only: what the terminal gets by another way.
+    void to_file(const std::string &text);
     /// Printed even when quiet, and counted.
     void warning(const std::string &text);
     unsigned n_warnings();
@@ -32,14 +40,17 @@ namespace tribodraw
   class Progress
   {
   public:
-    Progress(std::string label, double total);
+    /// @param done_before what an earlier run had done, for the estimate of a resumed one
+    Progress(std::string label, double total, double done_before = 0);
     ~Progress();
+    /// `12 s elapsed, 3 min 20 s to go`
+    std::string times(double done) const;
     void update(double done, const std::string &detail = "");
     void finish(const std::string &detail = "");
 
   private:
     std::string                           label;
-    double                                total;
+    double                                total, before;
     std::chrono::steady_clock::time_point start, last_draw;
     int                                   last_decile = -1;
     bool                                  finished    = false;

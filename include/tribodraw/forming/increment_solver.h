@@ -72,6 +72,8 @@ namespace tribodraw
 
     /// Force (moment) of the supports on the blank at each fixed unknown in the last solution, zero elsewhere [N, N mm].
     const Eigen::VectorXd &reactions() const { return reaction; }
+    /// Those of the committed state, from a checkpoint.
+    void set_reactions(const Eigen::VectorXd &of_committed_state) { reaction = of_committed_state; }
 
     /// Unbalanced force of each unknown at the last evaluation [N, N mm]: for a diagnosis.
     const Eigen::VectorXd &residual() const { return R; }

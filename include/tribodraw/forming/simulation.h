@@ -26,6 +26,9 @@ namespace tribodraw
     virtual void committed(const Simulation &simulation, const IncrementRecord &record) = 0;
     /// Called when the drawing is complete and before the tools are taken away.
     virtual void unloading(const Simulation &) {}
+    /// Called before finished() when an increment has no solution. @param unbalanced force of each node at the last attempt,
+    /// on the last committed state [N]
+    virtual void failed(const Simulation &, const std::vector<Eigen::Vector3d> & /*unbalanced*/) {}
     /// Called once at the end, also when the run did not converge.
     virtual void finished(const Simulation &, bool /*converged*/) {}
     virtual void save(Archive &) const {}
@@ -52,8 +55,8 @@ namespace tribodraw
     /// Checkpoints go to this folder every @p travel_between mm; 0: none.
     /// @param identity text of all parameters, line by line, that must be the same when the run is resumed
     void checkpoint_to(const std::filesystem::path &folder, double travel_between, const std::string &identity = "");
-    /// Go on from the newest intact checkpoint in the folder. Returns false if there is none. Throws InputError naming the
-    /// first parameter that differs from the checkpoint's.
+    /// Go on from the newest intact checkpoint in the folder. Returns false if there is none. Throws InputError naming
+    /// every parameter that differs from the checkpoint's.
     bool resume(const std::filesystem::path &folder);
 
     /// Ends at the full travel or with a neck. Throws ConvergenceError with a diagnosis after the observers have seen the

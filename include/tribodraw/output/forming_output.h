@@ -39,6 +39,8 @@ namespace tribodraw
     FieldWriter(std::filesystem::path folder, double travel_between, std::shared_ptr<const FormingLimitCurve> limit);
     void committed(const Simulation &simulation, const IncrementRecord &record) override;
     void unloading(const Simulation &simulation) override;
+    /// not_converged.vtu: the last state with the unbalanced force of each node.
+    void failed(const Simulation &simulation, const std::vector<Eigen::Vector3d> &unbalanced) override;
     void finished(const Simulation &simulation, bool converged) override;
     void save(Archive &archive) const override;
     void load(const Archive &archive) override;
@@ -47,6 +49,7 @@ namespace tribodraw
     SurfaceFields collect(const Simulation &simulation) const;
     void          write_step(const Simulation &simulation, const IncrementRecord &record);
     void          write_final(const Simulation &simulation) const;
+    void          remove_steps_from(unsigned first) const;
 
     std::filesystem::path                    folder;
     double                                   travel_between, next_travel = 0;
@@ -55,6 +58,7 @@ namespace tribodraw
     PvdCollection                            collection;
     std::vector<Eigen::Vector3d>             previous_position, velocity, in_the_tools; // the last: before the unloading
     double                                   previous_time = 0, last_written = -1;
+    std::vector<double>                      times; // of the steps written
   };
 
   /// results.csv: the figures one runs the case for, at the end; edge_profile.csv: the outer edge of the blank over the angle

@@ -36,17 +36,7 @@ namespace tribodraw
   public:
     /// @param name file name relative to the folder of the collection
     void add(double time, const std::string &name);
-    /// Forget all steps after @p time (a resumed run goes on from there).
-    void truncate(double time);
     void save(const std::filesystem::path &file) const;
-    /// Steps of an existing collection; empty if there is no such file.
-    static PvdCollection load(const std::filesystem::path &file);
-
-    const std::vector<std::pair<double, std::string>> &
-    steps() const
-    {
-      return entries;
-    }
 
   private:
     std::vector<std::pair<double, std::string>> entries;

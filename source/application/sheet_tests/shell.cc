@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstdio>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -222,6 +223,7 @@ namespace tribodraw
         double                           max_eps_p = 0, linear_energy = 0;
         unsigned                         n_fields = 0;
         PvdCollection                    collection;
+        Progress                         progress{ "Load path", 1. };
 
         /// The committed one, or that of the linear solution.
         double
@@ -288,9 +290,23 @@ namespace tribodraw
             forces.emplace_back(analysis.motion_force());
           add_point(analysis.factor(), shell.committed(), forces, analysis.steps().back().iterations);
           n_loaded = factor.size();
-          log::info("load factor " + units::number(analysis.factor()) + ", " + test.shell_case.measures[0].name + " "
-                    + units::format(displacement[0].back(), "mm") + ", "
-                    + std::to_string(analysis.steps().back().iterations) + " iterations");
+          report(analysis);
+        }
+
+        /// One line a step.
+        void
+        report(const StaticAnalysis &analysis)
+        {
+          const Loading &l    = test.loading;
+          const double   done = (l.control == Control::load ? analysis.factor() : displacement[0].back()) / l.targets.back();
+          const auto    &step = analysis.steps().back();
+          char           text[300];
+          std::snprintf(text, sizeof text, "%5.1f %%  load factor %.6g  step %.3g  %s %.6g mm  its %2u  residual %.0e  ",
+                        100 * done, analysis.factor(), factor.back() - factor[factor.size() - 2],
+                        test.shell_case.measures[0].name.c_str(), displacement[0].back(), step.iterations,
+                        step.residuals.empty() ? 0. : step.residuals.back());
+          log::step(text + progress.times(done));
+          progress.update(done);
         }
 
         /// Angle by which the director of each turned side has turned.

@@ -1,3 +1,4 @@
+#include <tribodraw/application/provenance.h>
 #include <tribodraw/application/task.h>
 #include <tribodraw/base/log.h>
 #include <tribodraw/base/parameters.h>
@@ -10,37 +11,21 @@
 #include <tribodraw/output/forming_output.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace tribodraw
 {
   namespace
   {
-    /// The effective parameters as `Section/Entry = value`, one a line, without what a resumed run may change.
-    std::string what_must_not_change(const std::string &effective)
+    /// The effective parameters as `Section/Entry = value`, one a line, without what a resumed run may change, and the
+    /// contents of the files they name.
+    std::string what_must_not_change(const RunContext &context)
     {
-      std::istringstream       in(effective);
-      std::vector<std::string> sections;
-      std::string              result;
-      for (std::string line; std::getline(in, line);)
-        {
-          line = line.substr(std::min(line.size(), line.find_first_not_of(' ')));
-          if (line.rfind("subsection ", 0) == 0)
-            sections.push_back(line.substr(11));
-          else if (line == "end")
-            sections.pop_back();
-          else if (line.rfind("set ", 0) == 0)
-            {
-              std::string path;
-              for (const auto &s : sections)
-                path += s + "/";
-              std::istringstream words(line.substr(4));
-              for (std::string word; words >> word;)
-                path += word + " ";
-              if (path.rfind("Solver/", 0) != 0 && path.rfind("Output/", 0) != 0 && path.rfind("Process/Punch travel", 0) != 0)
-                result += path + "\n";
-            }
-        }
+      std::string result;
+      for (const auto &[path, value] : effective_values(context.effective_parameters))
+        if (path.rfind("Solver/", 0) != 0 && path.rfind("Output/", 0) != 0 && path != "Process/Punch travel")
+          result += path + " = " + value + "\n";
+      for (const auto &[path, hash] : context.input_hashes)
+        result += path + " (content of the file) = " + hash + "\n";
       return result;
     }
 
@@ -94,6 +79,8 @@ namespace tribodraw
                (process.unloading ? " and unloading" : "") + (names.empty() ? "" : " with " + names) + ".";
       }
 
+      bool has_checkpoints() const override { return true; }
+
       void run(const RunContext &context) override
       {
         Simulation simulation(blank, material, tools, process, settings, make_friction(context));
@@ -101,7 +88,7 @@ namespace tribodraw
         simulation.add_observer(std::make_shared<HistoryWriter>(context.output_folder));
         simulation.add_observer(std::make_shared<FieldWriter>(context.output_folder, travel_between, limit));
         simulation.add_observer(std::make_shared<ResultsWriter>(context.output_folder));
-        simulation.checkpoint_to(context.output_folder, checkpoint_distance, what_must_not_change(context.effective_parameters));
+        simulation.checkpoint_to(context.output_folder, checkpoint_distance, what_must_not_change(context));
         if (context.resume && !simulation.resume(context.output_folder))
           log::warning("There is no checkpoint in " + context.output_folder.string() + "; the run starts from the beginning.");
         simulation.run();

@@ -115,20 +115,17 @@ TEST(Vtu, a_field_of_wrong_length_is_named)
   EXPECT_FALSE(std::filesystem::exists(folder / "step.vtu"));
 }
 
-TEST(Pvd, collection_is_read_back_and_cut)
+TEST(Pvd, collection_is_valid_xml_with_all_steps_in_order)
 {
   const TemporaryFolder folder;
   PvdCollection         steps;
   steps.add(0, "solution-00000.vtu");
   steps.add(0.1, "solution-00001.vtu");
-  steps.add(0.25, "solution-00002.vtu");
   steps.save(folder / "solution.pvd");
   EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "solution.pvd" }), 0);
-
-  PvdCollection again = PvdCollection::load(folder / "solution.pvd");
-  EXPECT_EQ(again.steps(), steps.steps());
-  again.truncate(0.1); // the step at exactly this time stays
-  ASSERT_EQ(again.steps().size(), 2u);
-  EXPECT_EQ(again.steps().back().second, "solution-00001.vtu");
-  EXPECT_TRUE(PvdCollection::load(folder / "missing.pvd").steps().empty());
+  const std::string text  = read_file(folder / "solution.pvd");
+  const auto        first = text.find("timestep=\"0\""), second = text.find("timestep=\"0.1\"");
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, text.size());
+  EXPECT_LT(text.find("solution-00001.vtu", second), text.size());
 }
