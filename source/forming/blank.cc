@@ -1,4 +1,5 @@
 #include <tribodraw/base/errors.h>
+#include <tribodraw/base/face_mesh.h>
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/forming/blank.h>
@@ -115,14 +116,17 @@ namespace tribodraw
     /// A mesh file is read at once, so that its mistakes are reported with all others.
     void read_mesh_file(Parameters &p, Blank &blank)
     {
-      const auto   file = p.input_file("Mesh file", "Mesh file: a Gmsh file (2.2 or 4.1, ASCII) of the modelled part; boundary sides on x = 0 and y = 0 are planes of symmetry.");
+      const auto   file = p.input_file("Mesh file", std::string("Mesh file: the modelled part of the blank; boundary sides on x = 0 and y = 0 are planes of symmetry. Formats: ") + face_mesh_formats + ".");
       const double unit = p.quantity("Mesh unit", "mm", Range::positive(), "Mesh file: length of one unit of the file.",
                                      Default{"1 mm", "the unit of this program"});
+      const auto part = p.text("Mesh part", "Mesh file: the part that is the blank: name or number of a physical group (Gmsh), name of a part, an instance or an "
+                                            "element set (Abaqus), number or title of a part (LS-DYNA).",
+                               Default{"", "the file holds nothing but the blank"});
       if (p.documentation_mode() || file.empty() || !(unit > 0))
         return;
       try
         {
-          auto       mesh  = std::make_shared<BlankMesh>(read_gmsh(file, unit));
+          auto       mesh  = std::make_shared<BlankMesh>(read_blank_mesh(file, unit, part));
           const auto found = symmetry_of(*mesh);
           if (found != blank.symmetry)
             return p.problem("Mesh file", "the mesh has the planes of symmetry of '" + symmetries[static_cast<int>(found)] + "', not of '" +
@@ -232,7 +236,7 @@ namespace tribodraw
     if (blank.shape == mesh_file || p.documentation_mode())
       read_mesh_file(p, blank);
     else
-      for (const char *entry : {"Mesh file", "Mesh unit"})
+      for (const char *entry : {"Mesh file", "Mesh unit", "Mesh part"})
         p.mark_unselected(entry);
     read_thickness_rule(p, blank);
     blank.edges = BlankEdges::read(p, blank.shape == rectangle, {blank.mirrored(0), blank.mirrored(1)});

@@ -2,6 +2,7 @@
 #include <tribodraw/material/point_batch.h>
 #include <tribodraw/shell/element.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -363,6 +364,43 @@ namespace tribodraw::shell_element
         }
     }
   } // namespace
+
+  std::vector<PointInSpace>
+  points_in_space(const Reference &reference, const NodeState &nodes, const Section &section,
+                  const PlasticState *states)
+  {
+    const Kinematics kinematics(reference, nodes);
+    PointBatch       batch;
+    fill(reference, kinematics, section, batch);
+    // Rotation of the mid-surface: tangents times the inverse root of their metric.
+    const Vector3   C = metric(kinematics.phi);
+    Eigen::Matrix2d metric_of_surface;
+    metric_of_surface << C[0], C[2], C[2], C[1];
+    Eigen::Matrix<double, 3, 2> tangents;
+    tangents << kinematics.phi[0], kinematics.phi[1];
+    Eigen::Matrix3d rotation;
+    rotation.leftCols<2>()
+        = tangents * Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(metric_of_surface).operatorInverseSqrt();
+    rotation.col(2) = rotation.col(0).cross(rotation.col(1));
+    const auto in_space = [&rotation](const double a11, const double a22, const double a33, const double a12) {
+      Eigen::Matrix3d local;
+      local << a11, a12, 0, a12, a22, 0, 0, 0, a33;
+      const Eigen::Matrix3d a = rotation * local * rotation.transpose();
+      return std::array<double, 6>{ a(0, 0), a(1, 1), a(2, 2), a(0, 1), a(1, 2), a(2, 0) };
+    };
+    std::vector<PointInSpace> points(batch.n);
+    for (unsigned q = 0; q < batch.n; ++q)
+      {
+        const Vector3 E          = LogarithmicStrain(Vector3(batch.C[0][q], batch.C[1][q], batch.C[2][q])).strain();
+        const Vector3 elastic    = E - states[q].plastic_strain;
+        const double  E33        = section.material->thickness_strain(E, states[q]);
+        // Kirchhoff stress over the change of volume.
+        const Vector3 stress = section.material->elasticity() * elastic / std::exp(E[0] + E[1] + E33);
+        points[q].stress     = in_space(stress[0], stress[1], 0, stress[2]);
+        points[q].strain     = in_space(E[0], E[1], E33, 0.5 * E[2]);
+      }
+    return points;
+  }
 
   Vector3
   mid_surface_metric(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &position)

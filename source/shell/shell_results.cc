@@ -133,6 +133,42 @@ namespace tribodraw
     return results;
   }
 
+  Shell::Layers
+  Shell::layers() const
+  {
+    const Implementation &d = *data;
+    const std::size_t     n = d.rule.point.size(), n_numbers = 13;
+    std::vector<double>   sums(d.mesh.triangles.size() * n * n_numbers, 0.);
+    for (std::size_t k = 0; k < d.owned().size(); ++k)
+      {
+        const PlasticState *states = &d.old_points[k * d.n_points()];
+        const auto          points
+            = shell_element::points_in_space(d.reference[k], d.node_state(d.owned()[k], d.committed),
+                                             { d.thickness, d.stretch[k], &d.rule, d.material.get() }, states);
+        for (std::size_t q = 0; q < points.size(); ++q)
+          {
+            double *layer = &sums[(d.owned()[k] * n + q % n) * n_numbers];
+            for (unsigned c = 0; c < 6; ++c)
+              {
+                layer[c] += points[q].stress[c] / shell_element::n_in_plane;
+                layer[6 + c] += points[q].strain[c] / shell_element::n_in_plane;
+              }
+            layer[12] += states[q].eps_p / shell_element::n_in_plane;
+          }
+      }
+    parallel::sum(sums);
+    Layers layers;
+    for (const double point : d.rule.point)
+      layers.place.push_back(point);
+    for (std::size_t i = 0; i < sums.size(); i += n_numbers)
+      {
+        layers.stress.push_back({ sums[i], sums[i + 1], sums[i + 2], sums[i + 3], sums[i + 4], sums[i + 5] });
+        layers.strain.push_back({ sums[i + 6], sums[i + 7], sums[i + 8], sums[i + 9], sums[i + 10], sums[i + 11] });
+        layers.eps_p.push_back(sums[i + 12]);
+      }
+    return layers;
+  }
+
   double
   Shell::elastic_energy() const
   {

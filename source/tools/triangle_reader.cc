@@ -1,4 +1,5 @@
 #include <tribodraw/base/errors.h>
+#include <tribodraw/base/face_mesh.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/tools/triangle_mesh.h>
@@ -300,18 +301,30 @@ namespace tribodraw
   } // namespace
 
   TriangleMesh
-  read_triangles(const std::filesystem::path &file, const double unit)
+  read_triangles(const std::filesystem::path &file, const double unit, const std::string &part)
   {
     if (!(unit > 0) || !std::isfinite(unit))
       throw InputError(
           describe_error("surface of a tool: the unit must be positive.", file.string(), units::number(unit) + " mm"));
     TriangleMesh mesh;
     mesh.name             = file.string();
-    std::string extension = file.extension().string();
-    for (char &c : extension)
-      c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-    // A triangle takes at most some 350 bytes of text.
-    read_by_content(read_file(file, 400 * most_triangles), extension == ".obj", mesh);
+    if (is_face_mesh(file))
+      {
+        FaceMesh faces = read_face_mesh(file, part);
+        mesh.vertices  = std::move(faces.nodes);
+        mesh.triangles = std::move(faces.triangles);
+      }
+    else if (!part.empty())
+      throw InputError(describe_error("surface of a tool: files of this format have no parts.", mesh.name,
+                                      "'" + part + "'", "empty, or one of the formats " + std::string(face_mesh_formats)));
+    else
+      {
+        std::string extension = file.extension().string();
+        for (char &c : extension)
+          c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+        // A triangle takes at most some 350 bytes of text.
+        read_by_content(read_file(file, 400 * most_triangles), extension == ".obj", mesh);
+      }
     if (mesh.triangles.empty())
       throw InputError(describe_error("surface of a tool: the file has no triangles.", mesh.name));
     Vector3d low = mesh.vertices[mesh.triangles[0][0]] * unit, high = low;

@@ -62,11 +62,16 @@ namespace tribodraw
         Input      input;
         const auto file = p.input_file(
             "File",
-            "STL (ASCII or binary) or OBJ, z upwards. It may be a skin without a back; beyond its border it goes "
+            "STL (ASCII or binary), OBJ, or a mesh of Gmsh (.msh), Abaqus (.inp) or LS-DYNA (.k, .key, .dyn), z upwards. It may be a skin without a back; beyond its border it goes "
             "on along its tangent planes.");
         const double unit
             = p.quantity("Unit", "mm", Range::positive(),
                          "Length of one unit of the file, which the formats do not state: `1 mm`, `1 m`.");
+        const auto part = p.text("Part",
+                                 "Mesh of a finite-element program: the part that is this tool: name or number of a physical "
+                                 "group (Gmsh), name of a part, an instance or an element set (Abaqus), number or title of "
+                                 "a part (LS-DYNA).",
+                                 Default{ "", "the file holds nothing but this tool" });
         const bool reversed = p.choice("Normals", { "out of the tool", "into the tool" },
                                        "Where the normals of the triangles point (by the order of their corners).",
                                        Default{ "out of the tool", "the rule of the formats" })
@@ -90,7 +95,7 @@ namespace tribodraw
           input.mesh = example();
         else
           {
-            input.mesh = read_triangles(file, unit);
+            input.mesh = read_triangles(file, unit, part);
             if (reversed)
               turn_over(input.mesh);
             if (symmetry.find('x') != std::string::npos)
@@ -104,6 +109,6 @@ namespace tribodraw
   } // namespace
 
   TRIBODRAW_REGISTER(ToolGeometry, TriangleSurface, "triangle surface",
-                     "Any shape from a file of triangles (STL, OBJ), smoothed between their corners.",
+                     "Any shape from a file of triangles (STL, OBJ, meshes of Gmsh, Abaqus, LS-DYNA), smoothed between their corners.",
                      "D. Walton, D. Meek, Comput. Aided Des. 28 (1996) 113-123")
 } // namespace tribodraw

@@ -4,6 +4,7 @@
 #include <tribodraw/application/program.h>
 #include <tribodraw/base/archive.h>
 #include <tribodraw/base/csv.h>
+#include <tribodraw/base/face_mesh.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/friction_table/coefficient_table.h>
@@ -26,10 +27,10 @@ namespace
   class ScratchFile
   {
   public:
-    explicit ScratchFile(const std::string &content)
+    explicit ScratchFile(const std::string &content, const std::string &extension = "")
     {
       static const fs::path folder = fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
-      file = folder / ("tribodraw_fuzz_" + std::to_string(::getpid()));
+      file = folder / ("tribodraw_fuzz_" + std::to_string(::getpid()) + extension);
       std::ofstream(file, std::ios::binary) << content;
     }
     ~ScratchFile()
@@ -108,6 +109,17 @@ namespace
     const std::string new_mesh
         = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n$EndNodes\n"
           "$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 2 4 3\n$EndElements\n";
+    const std::string abaqus
+        = "*HEADING\n** a blank\n*PART, NAME=Blank\n*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=S4R,\n"
+          "ELSET=All\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=S3\n2, 1, 2, 3\n*ELSET, ELSET=B, GENERATE\n1, 2, 1\n*END PART\n"
+          "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=Blank-1, PART=Blank\n0., 0., 5.\n0., 0., 0., 0., 0., 1., 90.\n"
+          "*END INSTANCE\n*ELSET, ELSET=C, INSTANCE=Blank-1\n1, 2\n*END ASSEMBLY\n";
+    const std::string ls_dyna
+        = "*KEYWORD\n$ a blank\n*PART\nblank\n         7         1\n*NODE\n"
+          "       1             0.0             0.0             0.0       0       0\n"
+          "       2             1.0             0.0             0.0\n3,1.0,1.0,0.0\n4,0,1.+0,0\n"
+          "*ELEMENT_SHELL_THICKNESS\n       1       7       1       2       3       4\n"
+          "             0.8             0.8             0.8             0.8\n*ELEMENT_SHELL\n       2       7       1       2       3       3\n*END\n";
     return {
       { "parameters", true, read_parameters, shipped_parameter_files() },
       { "quantity", true, [](const std::string &text) { units::parse_quantity(text, "mm"); }, { "0.82 mm", "1e-3 m", "25.4e3um " } },
@@ -118,7 +130,9 @@ namespace
         { build_friction_table(test::sample_pair(64, true)).to_json().dump() } },
       { "coefficient table", true, [](const std::string &text) { CoefficientTable::read(ScratchFile(text).path()); },
         { sample_coefficients() } },
-      { "gmsh", true, [](const std::string &text) { read_gmsh(ScratchFile(text).path()); }, { mesh, new_mesh } },
+      { "gmsh", true, [](const std::string &text) { read_blank_mesh(ScratchFile(text, ".msh").path()); }, { mesh, new_mesh } },
+      { "abaqus", true, [](const std::string &text) { read_face_mesh(ScratchFile(text, ".inp").path()); }, { abaqus } },
+      { "ls dyna", true, [](const std::string &text) { read_face_mesh(ScratchFile(text, ".k").path()); }, { ls_dyna } },
     };
   }
 } // namespace

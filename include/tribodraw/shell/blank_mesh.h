@@ -69,13 +69,12 @@ namespace tribodraw
   /// A disc around the origin or its quarter x >= 0, y >= 0.
   BlankMesh make_disc(double radius, const SizeField &size, bool quarter);
 
-  /// Flat mesh from a Gmsh file (.msh, version 2.2 or 4.1, ASCII). Triangles are taken, quadrangles are cut along their
-  /// shorter diagonal, points and lines are passed over; everything else is refused. All triangles are turned
-  /// counter-clockwise and the plane is moved to z = 0. Boundary sides on x = 0 and y = 0 of a mesh that lies on one
-  /// side of them are planes of symmetry.
+  /// Flat mesh from a file of finite elements (formats and @p part: read_face_mesh()). All triangles are turned
+  /// counter-clockwise and the plane is moved to z = 0. Boundary sides on x = 0 and y = 0 of a mesh that lies on one side of
+  /// them are planes of symmetry.
   /// @param length_unit of the coordinates of the file [mm]
-  /// Throws InputError with the line for anything that does not fit.
-  BlankMesh read_gmsh(const std::filesystem::path &file, double length_unit = 1);
+  /// Throws InputError with the place for anything that does not fit.
+  BlankMesh read_blank_mesh(const std::filesystem::path &file, double length_unit = 1, const std::string &part = "");
 
   /// Points on an arc at the distance of the local size, both ends included; angles in rad, from < to.
   std::vector<Eigen::Vector2d> circular_arc(const Eigen::Vector2d &centre, double radius, double from, double to,

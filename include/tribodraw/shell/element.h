@@ -145,6 +145,17 @@ namespace tribodraw::shell_element
                     const PlasticState *old_states, PlasticState *new_states, ForceVector &force,
                     TangentMatrix &tangent);
 
+  /// A point of integration in space: components xx, yy, zz, xy, yz, zx along the axes of the model.
+  struct PointInSpace
+  {
+    std::array<double, 6> stress; ///< Cauchy stress [MPa]
+    std::array<double, 6> strain; ///< logarithmic (shear: tensor components)
+  };
+  /// Stresses and strains of all points (thickness points fastest) that belong to @p states. The layers turn with the
+  /// mid-surface.
+  std::vector<PointInSpace> points_in_space(const Reference &reference, const NodeState &nodes, const Section &section,
+                                            const PlasticState *states);
+
   /// Metric (C_11, C_22, C_12) of the mid-surface.
   Vector3 mid_surface_metric(const Reference &reference, const std::array<Eigen::Vector3d, n_nodes> &position);
   /// Metric at a side, of this triangle and its neighbour.

@@ -105,6 +105,16 @@ namespace tribodraw
           membrane_stress_xy; ///< thickness mean, log. stress [MPa]
     };
     ElementResults element_results() const; ///< collective
+    /// Layers of integration points, each the mean over the three points of an element in its plane; for programs that go
+    /// on with the sheet.
+    struct Layers
+    {
+      std::vector<double> place; ///< of the layers in the thickness, -1 to 1
+      /// Per element and layer (layers fastest): xx, yy, zz, xy, yz, zx along the axes of the model.
+      std::vector<std::array<double, 6>> stress, strain; ///< Cauchy stress [MPa]; logarithmic strain
+      std::vector<double>                eps_p;
+    };
+    Layers layers() const;                 ///< collective
     double         elastic_energy() const;  ///< [N mm]
     double         plastic_work() const;    ///< accumulated [N mm]
 

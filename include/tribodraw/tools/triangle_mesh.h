@@ -25,10 +25,11 @@ namespace tribodraw
     }
   };
 
-  /// Read STL (ASCII or binary) or OBJ (triangles and quadrangles, with or without normals); the format is seen from
-  /// the content. @p unit is the length of one unit of the file [mm]. Corners at the same place become one vertex,
+  /// Read STL (ASCII or binary) or OBJ (triangles and quadrangles, with or without normals), seen from the content, or a
+  /// finite-element mesh, seen from its extension (formats and @p part: read_face_mesh()). @p unit is the length of one
+  /// unit of the file [mm]. Corners at the same place become one vertex,
   /// triangles that thereby collapse are left out. Throws InputError naming file and place.
-  TriangleMesh read_triangles(const std::filesystem::path &file, double unit);
+  TriangleMesh read_triangles(const std::filesystem::path &file, double unit, const std::string &part = "");
 
   /// Make one vertex of all within @p tolerance [mm] of each other, drop collapsed triangles and unused vertices.
   void weld(TriangleMesh &mesh, double tolerance);

@@ -8,6 +8,7 @@
 #include <tribodraw/forming/pressure_friction.h>
 #include <tribodraw/forming/simulation.h>
 #include <tribodraw/friction_table/builder.h>
+#include <tribodraw/output/dynain.h>
 #include <tribodraw/output/forming_output.h>
 
 #include <algorithm>
@@ -67,6 +68,9 @@ namespace tribodraw
                                            Default{"5 mm", "a dozen steps for a typical part"});
           checkpoint_distance = p.quantity("Travel between checkpoints", "mm", Range::non_negative(), "Punch travel between two checkpoints; 0: none.",
                                            Default{"5 mm", "a checkpoint takes less time than an increment"});
+          with_dynain = p.flag("Dynain", "Write the final state as `dynain` (LS-DYNA keywords: nodes, thickness, stresses and strains of the layers), from which "
+                                         "programs for springback, trimming or crash go on.",
+                               Default{"false", "some 2 kB an element"});
         }
       }
 
@@ -92,6 +96,8 @@ namespace tribodraw
         if (context.resume && !simulation.resume(context.output_folder))
           log::warning("There is no checkpoint in " + context.output_folder.string() + "; the run starts from the beginning.");
         simulation.run();
+        if (with_dynain)
+          write_dynain(context.output_folder / "dynain", simulation.shell(), "final state of a drawing by tribodraw");
       }
 
     private:
@@ -203,6 +209,7 @@ namespace tribodraw
       double                                   friction_coefficient = 0;
       std::shared_ptr<const FormingLimitCurve> limit;
       double                                   travel_between = 0, checkpoint_distance = 0;
+      bool                                     with_dynain = false;
     };
   } // namespace
 

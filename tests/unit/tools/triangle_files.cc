@@ -4,6 +4,7 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/base/parameters.h>
+#include <tribodraw/base/units.h>
 #include <tribodraw/tools/smooth_surface.h>
 
 #include <gtest/gtest.h>
@@ -151,4 +152,30 @@ TEST(TriangleFiles, Entries)
   expect(message("set File = nothing.stl\nset Unit = 1 mm\n"), "does not exist");
   expect(message(path + "set Unit = 1 mm\nset Feature angle = 5 deg\n"), "sharp edges");
   expect(message(path + "set Unit = 1 mm\nset Symmetry = x = 0\n"), "does not end at a plane of symmetry");
+}
+
+TEST(TriangleFiles, AMeshOfFiniteElementsIsTheSameTool)
+{
+  const TriangleMesh punch = triangle_samples::punch();
+  std::string        text  = "*KEYWORD\n*PART\nPunch\n         2\n*NODE\n";
+  for (std::size_t i = 0; i < punch.vertices.size(); ++i)
+    {
+      const Vector3d &x = punch.vertices[i];
+      text += std::to_string(i + 1) + "," + units::number(x[0]) + "," + units::number(x[1]) + "," + units::number(x[2]) + "\n";
+    }
+  text += "*ELEMENT_SHELL\n";
+  for (std::size_t t = 0; t < punch.triangles.size(); ++t)
+    {
+      const auto &v = punch.triangles[t];
+      text += std::to_string(t + 1) + ",2," + std::to_string(v[0] + 1) + "," + std::to_string(v[1] + 1) + "," + std::to_string(v[2] + 1)
+              + "," + std::to_string(v[2] + 1) + "\n";
+    }
+  const File         file(text, ".k");
+  const TriangleMesh read = read_triangles(file.path, 1, "Punch");
+  EXPECT_EQ(read.triangles.size(), punch.triangles.size());
+  const SmoothSurface one(punch, {}), other(read, {});
+  for (const double x : { 0., 10., 25., 28., 31. })
+    EXPECT_NEAR(one.distance({ x, 2, -1 }).distance, other.distance({ x, 2, -1 }).distance, 1e-9);
+  const std::string wrong = message("set File = " + file.path.string() + "\nset Unit = 1 mm\nset Part = Die\n");
+  EXPECT_NE(wrong.find("no such part"), std::string::npos) << wrong;
 }

@@ -30,7 +30,7 @@ namespace
     std::ofstream(file) << text;
     try
       {
-        BlankMesh mesh = read_gmsh(file, unit);
+        BlankMesh mesh = read_blank_mesh(file, unit);
         std::filesystem::remove(file);
         return mesh;
       }
@@ -135,7 +135,7 @@ TEST(Gmsh, MistakesAreNamedWithTheirLine)
   EXPECT_NE(message(seam).find("same place"), std::string::npos) << message(seam);
   EXPECT_NE(message("").find("no triangles"), std::string::npos);
   EXPECT_NE(message("hello\n").find("line 1"), std::string::npos);
-  EXPECT_THROW(read_gmsh("/nowhere/mesh.msh"), InputError);
+  EXPECT_THROW(read_blank_mesh("/nowhere/mesh.msh"), InputError);
 }
 
 TEST(Gmsh, EveryShortenedFileIsRefused)
