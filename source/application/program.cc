@@ -10,7 +10,6 @@
 #include <tribodraw/output/figures.h>
 #include <tribodraw/output/report.h>
 
-#include <dlfcn.h>
 #include <mpi.h>
 #include <unistd.h>
 
@@ -261,11 +260,6 @@ namespace tribodraw
     // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use.
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, dealii::numbers::invalid_unsigned_int);
     const std::vector<std::string>                 words(argv + 1, argv + argc);
-    // The blocks of a sheet's factorisation are small: a second BLAS thread only waits, at full load. Whoever has a very
-    // large mesh can ask for threads in the environment.
-    if (!getenv("OPENBLAS_NUM_THREADS"))
-      if (auto *set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
-        set_threads(1);
     // Its own communicator, so that the wait of a failing rank meets nothing else.
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);

@@ -3,9 +3,11 @@
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/base/parallel.h>
 
+#include <dlfcn.h>
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace tribodraw::parallel
 {
@@ -118,6 +120,15 @@ namespace tribodraw::parallel
   n_threads()
   {
     return std::max(1u, dealii::MultithreadInfo::n_threads());
+  }
+
+  void
+  use_one_blas_thread()
+  {
+    if (std::getenv("OPENBLAS_NUM_THREADS"))
+      return;
+    if (auto *const set_threads = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+      set_threads(1);
   }
 
   void

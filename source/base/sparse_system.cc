@@ -118,6 +118,7 @@ namespace tribodraw
     void
     start()
     {
+      parallel::use_one_blas_thread();
       mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(communicator));
       mumps.par          = 1;
       mumps.sym          = symmetry == Symmetry::symmetric ? 2 : 0;

@@ -66,6 +66,7 @@ namespace
                  title.c_str(), simulation.shell().n_elements(), count->increments, count->iterations, 1e3 * result.used.cpu_s / count->iterations,
                  1e-3 * r.punch_force, r.draw_in_x, r.draw_in_y, r.draw_in_diagonal, r.punch_travel, 100 * count->penetration / blank.thickness,
                  100 * r.energy_error());
+    std::fprintf(stderr, "%s\n", timing::summary().c_str());
     return result;
   }
 

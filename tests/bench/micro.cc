@@ -303,10 +303,9 @@ namespace
   void
   use_one_blas_thread()
   {
-    if (void *const symbol = dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
-      reinterpret_cast<void (*)(int)>(symbol)(1);
-    else
+    if (!dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
       std::fprintf(stderr, "CHOLMOD does not run with OpenBLAS here; the reference is slower than it could be.\n");
+    parallel::use_one_blas_thread();
   }
 } // namespace
 

@@ -32,6 +32,10 @@ namespace tribodraw
                    std::size_t                                           grain,
                    const std::function<void(std::size_t, std::size_t)> &body);
     unsigned n_threads();
+    /// The blocks of a sheet's factorisation are small: a second BLAS thread only waits, at full load. Whoever has a very
+    /// large mesh can ask for threads in the environment (OPENBLAS_NUM_THREADS). Does nothing with other libraries than
+    /// OpenBLAS. Every DirectSolver calls this.
+    void use_one_blas_thread();
   } // namespace parallel
 } // namespace tribodraw
 
