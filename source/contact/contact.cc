@@ -152,6 +152,12 @@ namespace tribodraw
     return {e * g, e};
   }
 
+  Contact::Law
+  Contact::frozen_law(const double pressure) const
+  {
+    return {pressure, std::min(settings.stiffness, std::sqrt(settings.stiffness * pressure / settings.transition))};
+  }
+
   double
   Contact::energy(const double g) const
   {
@@ -206,7 +212,7 @@ namespace tribodraw
       return result;
 
     const double   w        = area[point], dc = settings.stick_slip;
-    const Law      normal   = law(now.trial_penetration);
+    const Law      normal   = options.frozen ? frozen_law(now.pressure) : law(now.trial_penetration);
     const double   p        = normal.pressure;
     const Law      mu       = friction_at(law_of_friction[static_cast<int>(rigid.face)], point, p);
     const Vector3d whole    = now.slip + moved; // its tangential part is the trial slip

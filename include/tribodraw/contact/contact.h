@@ -80,7 +80,7 @@ namespace tribodraw
     };
     struct Options
     {
-      bool frozen = false; ///< predictor: contact status, pressure and sliding as committed
+      bool frozen = false; ///< predictor: contact status, pressure and direction of sliding as committed
     };
     /// Subtracts contact forces from @p residual (internal minus external forces; entries n_dofs.. are the free tools:
     /// force of the tool on the sheet along its axis) and adds to the tangent. @p tool_sensitivity, if given, gets the
@@ -164,6 +164,7 @@ namespace tribodraw
       Eigen::Matrix3d stiffness;
     };
     Law      law(double penetration) const;
+    Law      frozen_law(double pressure) const; ///< the law where it has the pressure @p pressure
     double   energy(double penetration) const;
     /// Coefficient and its derivative by the pressure.
     Law      friction_at(const FrictionLaw &law, unsigned point, double pressure) const;

@@ -84,6 +84,8 @@ namespace tribodraw
     void   resist_motion(double dt);
     double force_scale() const;
     bool   predict(const Load &load, Eigen::VectorXd &du);
+    /// Linear step of the whole increment with the tangent of the trial state, where the tools have done @p part of their way.
+    bool   predict_from(const Load &load, double part, Eigen::VectorXd &du);
     void   restart();
     void   account(const Load &load, const Eigen::VectorXd &loads_before, const Eigen::VectorXd &reaction_before, Outcome &outcome) const;
     Eigen::VectorXd increment() const;
@@ -92,7 +94,7 @@ namespace tribodraw
     double largest_displacement(const Eigen::VectorXd &du) const;
     void   add_travels();
     bool   line_search(const Load &load, const Shell::AssemblyOptions &options, const Eigen::VectorXd &du, double &norm);
-    void   set_tools(const Load &load, bool at_end);
+    void   set_tools(const Load &load, double part);
 
     Shell                &shell;
     Contact              &contact;
