@@ -34,7 +34,7 @@ namespace tribodraw
   void
   Contact::commit()
   {
-    find_face_states();
+    faces   = trial_faces();
     stored  = -energy_at_start;
     deepest = 0;
     for (unsigned t = 0; t < tool.size(); ++t)
@@ -60,16 +60,18 @@ namespace tribodraw
     measure_sheet();
   }
 
-  void
-  Contact::find_face_states()
+  std::array<Contact::FaceState, n_faces>
+  Contact::trial_faces() const
   {
-    const unsigned n = sheet.n_nodes();
+    const unsigned                 n = sheet.n_nodes();
+    std::array<FaceState, n_faces> result;
     for (unsigned f = 0; f < n_faces; ++f)
       {
-        FaceState &face = faces[f];
-        std::fill(face.tool.begin(), face.tool.end(), -1);
-        std::fill(face.gap.begin(), face.gap.end(), 1e300);
-        std::fill(face.slip.begin(), face.slip.end(), Vector3d::Zero());
+        FaceState &face = result[f];
+        face.tool.assign(n, -1);
+        face.gap.assign(n, 1e300);
+        face.slip.assign(n, Vector3d::Zero());
+        face.pressure.assign(n, 0.);
         std::vector<double> force(n, 0.), around(n, 0.), largest(n, 0.);
         for (unsigned point = 0; point < points.size(); ++point)
           for (const unsigned node : points.nodes(point))
@@ -104,6 +106,7 @@ namespace tribodraw
         for (unsigned node = 0; node < n; ++node)
           face.pressure[node] = force[node] / around[node];
       }
+    return result;
   }
 
   void

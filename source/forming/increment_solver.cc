@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tribodraw
 {
@@ -16,6 +17,8 @@ namespace tribodraw
     /// Far from the solution (unbalanced / contact forces above this) the tangent is stabilised.
     constexpr double far_from_solution = 0.1;
     constexpr double elastic_share     = 0.05;
+    /// Below this pressures and sliding are known well enough for friction.
+    constexpr double near_solution = 0.02;
     /// Below this part of the residual's tolerance a displacement may still move: it costs no force (a corner of the blank
     /// between the flat tools).
     constexpr double surely_converged = 0.1;
@@ -340,7 +343,7 @@ namespace tribodraw
   }
 
   IncrementSolver::Outcome
-  IncrementSolver::solve(const Load &load)
+  IncrementSolver::solve(const Load &load, const std::function<bool(bool)> &update_friction)
   {
     Outcome outcome;
     restart();
@@ -382,8 +385,9 @@ namespace tribodraw
       }
     double   norm = R.norm(), best = norm, last_norm = 0;
     unsigned since_progress = 0;
-    for (outcome.iterations = 1; outcome.iterations <= settings.max_iterations; ++outcome.iterations)
+    for (unsigned tried = 1; tried <= settings.max_iterations; ++tried)
       {
+        ++outcome.iterations;
         du = -R;
         if (!solver.solve(K, held, linear_tolerance, norm < similar_below * last_norm && !options.tension_only, du))
           return give_up("the tangent is singular");
@@ -398,18 +402,26 @@ namespace tribodraw
         if (outcome.residual < settings.residual_tolerance &&
             (outcome.correction * std::min(1., norm / last_norm) < settings.displacement_tolerance || outcome.residual < surely_converged * settings.residual_tolerance))
           {
-            if (load.contact && contact.stiffen())
+            const bool stiffer = load.contact && contact.stiffen();
+            if (!stiffer && outcome.first_iterations == 0)
+              outcome.first_iterations = outcome.iterations;
+            if (stiffer || (update_friction && update_friction(true)))
               {
                 if (!evaluate(load, options))
                   return give_up("a material point or an element cannot follow the increment");
                 norm = best = R.norm();
-                since_progress = 0;
+                since_progress = tried = 0;
+                if (!stiffer)
+                  last_norm = std::numeric_limits<double>::infinity(); // the tangent is nearly that of the last step
                 continue;
               }
             outcome.converged = true;
             account(load, loads_before, reaction_before, outcome);
             return outcome;
           }
+        // The next correction is still found with the old friction, so that this costs no evaluation of the sheet.
+        if (update_friction && outcome.residual < near_solution)
+          update_friction(false);
         since_progress = norm < 0.9 * best ? 0 : since_progress + 1;
         best           = std::min(best, norm);
         if (since_progress >= 10)

@@ -2,6 +2,7 @@
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/log.h>
+#include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
 
 #include <algorithm>
@@ -83,6 +84,18 @@ namespace tribodraw
                                                                        : "Blank holder closed with " + units::format(process.holder_force(0), "kN") + ".");
   }
 
+  IncrementSolver::Outcome
+  Simulation::Implementation::solve(const IncrementSolver::Load &load, const double increment)
+  {
+    const auto outcome = solver->solve(load, [&](const bool in_equilibrium) {
+      const timing::Scope scope("forming/friction coupling");
+      return friction->iterate(shell, contact, {load.dt, increment, false}, in_equilibrium);
+    });
+    if (!outcome.converged)
+      friction->revert(contact);
+    return outcome;
+  }
+
   void
   Simulation::Implementation::draw()
   {
@@ -95,7 +108,7 @@ namespace tribodraw
         if (remaining < 1.5 * step) // no tiny last increment: rates of a tiny one mean nothing
           step = remaining <= settings.largest_increment ? std::min(remaining, 1.5 * step) : 0.5 * remaining;
         const auto load    = schedule.drawing(record.path, record.path + step);
-        const auto outcome = solver->solve(load);
+        const auto outcome = solve(load, step);
         if (!outcome.converged)
           {
             log::step("   " + units::format(record.path, "mm") + ": " + outcome.reason + " with an increment of " + units::format(step, "mm") + ", halved.");
@@ -107,9 +120,9 @@ namespace tribodraw
             monitor->without_equilibrium(outcome.reason);
             break;
           }
-        if (outcome.iterations <= few_iterations)
+        if (outcome.first_iterations <= few_iterations)
           next_increment = std::min(settings.largest_increment, growth * std::max(step, next_increment));
-        else if (outcome.iterations > many_iterations)
+        else if (outcome.first_iterations > many_iterations)
           next_increment = std::max(settings.smallest_increment, shrinkage * step);
         advance(load, outcome, Stage::drawing, step);
         if (tools.holder >= 0 && schedule.is_free(tools.holder) && tools.die >= 0 && holder_height() < process.holder_stop * blank.thickness)

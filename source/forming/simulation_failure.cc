@@ -65,7 +65,7 @@ namespace tribodraw
     const auto               say = [&](const std::string &text) { causes.push_back(text); };
     char                     residuals[80];
     std::snprintf(residuals, sizeof residuals, "residual %.1e, asked %.1e", outcome.residual, settings.residual_tolerance);
-    if (outcome.iterations > settings.max_iterations && (settings.max_iterations < few || outcome.residual < nearly * settings.residual_tolerance))
+    if (outcome.iterations >= settings.max_iterations && (settings.max_iterations < few || outcome.residual < nearly * settings.residual_tolerance))
       say("It ran out of iterations (" + std::string(residuals) + "): allow more than " + std::to_string(settings.max_iterations) + " 'Solver/Maximal iterations'.");
     if (stage == Stage::drawing && settings.smallest_increment > coarse * settings.first_increment)
       say("There was little room for smaller increments: 'Solver/Smallest increment' is " + units::format(settings.smallest_increment, "mm") + ", 'Solver/First increment' " +

@@ -46,6 +46,9 @@ namespace tribodraw
 
     double symmetry() const { return shell.mesh().symmetry_factor; }
 
+    /// Equilibrium after an increment of the drawing, with the friction that belongs to it.
+    IncrementSolver::Outcome solve(const IncrementSolver::Load &load, double increment);
+
     // stages
     void close();
     void draw();
@@ -65,7 +68,7 @@ namespace tribodraw
     void   advance(const IncrementSolver::Load &load, const IncrementSolver::Outcome &outcome, Stage stage, double increment);
     void   record_forces(const IncrementSolver::Load &load, const IncrementSolver::Outcome &outcome);
     void   record_state();
-    void   update_friction(const IncrementSolver::Load &load, const std::vector<Eigen::Vector3d> &motion, bool closing);
+    void   update_friction(const IncrementSolver::Load &load, bool closing);
     double tool_force(int role) const; // downwards on the sheet, full part [N]
     double press_force() const;        // that drives the process, full part [N or MPa]
     void   find_edge_nodes();

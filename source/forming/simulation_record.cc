@@ -102,16 +102,10 @@ namespace tribodraw
   }
 
   void
-  Simulation::Implementation::update_friction(const IncrementSolver::Load &load, const std::vector<Vector3d> &motion, const bool closing)
+  Simulation::Implementation::update_friction(const IncrementSolver::Load &load, const bool closing)
   {
-    const timing::Scope         scope("forming/friction coupling");
-    FrictionCoupling::Increment increment;
-    increment.dt      = load.dt;
-    increment.travel  = record.increment;
-    increment.closing = closing;
-    for (const Vector3d &m : motion)
-      increment.tool_velocity.push_back(m / load.dt);
-    friction->update(shell, contact, increment);
+    const timing::Scope scope("forming/friction coupling");
+    friction->update(shell, contact, {load.dt, record.increment, closing});
     record.friction = friction->summary();
   }
 
@@ -143,14 +137,11 @@ namespace tribodraw
     record.increment = increment;
     record.path += increment;
     record.punch_travel = tools.punch >= 0 ? record.path : 0.;
-    std::vector<Vector3d> motion;
-    for (const auto &t : contact.tools())
-      motion.push_back(t.motion());
     shell.commit();
     if (stage != Stage::unloading)
       {
         contact.commit();
-        update_friction(load, motion, stage == Stage::closing);
+        update_friction(load, stage == Stage::closing);
       }
     record_state();
     ++n_committed;

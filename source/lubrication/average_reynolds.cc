@@ -211,22 +211,4 @@ namespace tribodraw
       sum += cell.area / 3. * (pressure[cell.node[0]] + pressure[cell.node[1]] + pressure[cell.node[2]]);
     return sum;
   }
-
-  std::vector<Eigen::Vector3d>
-  AverageReynolds::nodal_gradient(const std::vector<Eigen::Vector3d> &positions,
-                                  const std::vector<double>          &pressure) const
-  {
-    data->geometry.move_to(positions);
-    std::vector<Eigen::Vector3d> sum(positions.size(), Eigen::Vector3d::Zero());
-    const Eigen::VectorXd        area = data->geometry.nodal_area();
-    for (const auto &cell : data->geometry.cells())
-      {
-        const Eigen::Vector3d local(pressure[cell.node[0]], pressure[cell.node[1]], pressure[cell.node[2]]);
-        for (const unsigned i : cell.node)
-          sum[i] += cell.area / 3. * (cell.gradient * local);
-      }
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] /= area[i];
-    return sum;
-  }
 } // namespace tribodraw

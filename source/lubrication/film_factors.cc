@@ -4,23 +4,25 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace tribodraw
 {
   namespace
   {
-    /// The diagonal is taken as pivot unless it is smaller than this part of the greatest entry of its column: films are
-    /// nearly dominated by their diagonals, and the ordering then keeps its few entries.
+    /// The diagonal is taken as pivot unless it is smaller than this part of the greatest entry of its column: films
+    /// are nearly dominated by their diagonals, and the ordering then keeps its few entries.
     constexpr double diagonal_preference = 1e-3;
-    /// Old pivots are given up when elimination with them makes entries grow by more than this.
-    constexpr double largest_growth = 1e3;
+    /// Pivots that were good for other values may be bad for these: the residual, in parts of the terms of its row,
+    /// tells.
+    constexpr double largest_residual = 1e-13;
   } // namespace
 
   FilmFactors::FilmFactors()
   {
     klu_defaults(&common);
-    common.btf   = 0; // one block in general, and the ordering must serve all values
-    common.scale = 0;
+    common.btf   = 0;  // one block in general, and the ordering must serve all values
+    common.scale = -1; // none
     common.tol   = diagonal_preference;
   }
 
@@ -40,20 +42,10 @@ namespace tribodraw
       throw std::runtime_error("KLU failed to order a film matrix, status " + std::to_string(common.status) + ".");
   }
 
+  /// A pivot below this share of its column is round-off of a vanishing one: n eliminations leave some sqrt(n) times
+  /// the machine precision.
   bool
-  FilmFactors::find_pivots(double *values)
-  {
-    klu_free_numeric(&numeric, &common);
-    numeric = klu_factor(start.data(), column.data(), values, symbolic, &common);
-    if (numeric == nullptr && common.status != KLU_SINGULAR)
-      throw std::runtime_error("KLU failed to factorise a film matrix, status " + std::to_string(common.status) + ".");
-    return numeric != nullptr && common.status == KLU_OK;
-  }
-
-  /// A pivot below this share of its column is round-off of a vanishing one: n eliminations leave some sqrt(n) times the
-  /// machine precision.
-  bool
-  FilmFactors::is_regular(const std::vector<double> &values) const
+  FilmFactors::is_regular(const double *values) const
   {
     const int     n     = symbolic->n;
     const double  limit = 20 * std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(n));
@@ -71,21 +63,53 @@ namespace tribodraw
   }
 
   bool
-  FilmFactors::factor(const SparseMatrix &matrix)
+  FilmFactors::factor_again(double *values)
+  {
+    return numeric != nullptr && klu_refactor(start.data(), column.data(), values, symbolic, numeric, &common) != 0
+           && common.status == KLU_OK && is_regular(values);
+  }
+
+  bool
+  FilmFactors::factor_anew(double *values)
+  {
+    klu_free_numeric(&numeric, &common);
+    numeric = klu_factor(start.data(), column.data(), values, symbolic, &common);
+    if (numeric == nullptr && common.status != KLU_SINGULAR)
+      throw std::runtime_error("KLU failed to factorise a film matrix, status " + std::to_string(common.status) + ".");
+    return numeric != nullptr && common.status == KLU_OK && is_regular(values);
+  }
+
+  bool
+  FilmFactors::solve(const SparseMatrix &matrix, Eigen::VectorXd &b)
   {
     if (symbolic == nullptr)
       analyse(matrix);
     auto *const values = const_cast<double *>(matrix.values().data()); // KLU only reads them
-    if (numeric != nullptr && klu_refactor(start.data(), column.data(), values, symbolic, numeric, &common) != 0
-        && common.status == KLU_OK && klu_rgrowth(start.data(), column.data(), values, symbolic, numeric, &common) != 0
-        && common.rgrowth > 1 / largest_growth && is_regular(matrix.values()))
-      return true;
-    return find_pivots(values) && is_regular(matrix.values());
-  }
-
-  void
-  FilmFactors::solve(Eigen::VectorXd &b)
-  {
+    if (factor_again(values))
+      {
+        Eigen::VectorXd x = b;
+        klu_tsolve(symbolic, numeric, symbolic->n, 1, x.data(), &common);
+        double worst = 0;
+        for (int i = 0; i < symbolic->n; ++i)
+          {
+            double residual = b[i], terms = std::abs(b[i]);
+            for (int k = start[i]; k < start[i + 1]; ++k)
+              {
+                const double term = values[k] * x[column[k]];
+                residual -= term;
+                terms += std::abs(term);
+              }
+            worst = std::max(worst, std::isfinite(residual) ? std::abs(residual) / std::max(terms, 1e-300) : 1.);
+          }
+        if (worst < largest_residual)
+          {
+            b = x;
+            return true;
+          }
+      }
+    if (!factor_anew(values))
+      return false;
     klu_tsolve(symbolic, numeric, symbolic->n, 1, b.data(), &common);
+    return true;
   }
 } // namespace tribodraw

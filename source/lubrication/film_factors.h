@@ -5,10 +5,12 @@
 
 #include <klu.h>
 
+#include <vector>
+
 namespace tribodraw
 {
-  /// Sparse direct LU of one pattern after the other set of values (KLU of SuiteSparse): a film on a blank has some
-  /// thousand unknowns and is solved several times an increment with slightly different matrices. On one rank.
+  /// Sparse direct solution of systems of one pattern (KLU of SuiteSparse): a film on a blank has some thousand
+  /// unknowns and is solved several times an increment with slightly different matrices. On one rank.
   class FilmFactors
   {
   public:
@@ -17,11 +19,9 @@ namespace tribodraw
     FilmFactors(const FilmFactors &)            = delete;
     FilmFactors &operator=(const FilmFactors &) = delete;
 
-    /// Factorise; the pattern must be that of the first call. The pivots of the last factors are tried first. Returns
-    /// false if the matrix is singular to working precision.
-    bool factor(const SparseMatrix &matrix);
-    /// Solve with the last factors; @p b becomes the solution.
-    void solve(Eigen::VectorXd &b);
+    /// @p b becomes the solution. The pattern must be that of the first call. Returns false if the matrix is singular
+    /// to working precision; then @p b is as it was.
+    bool solve(const SparseMatrix &matrix, Eigen::VectorXd &b);
 
   private:
     klu_common       common;
@@ -29,9 +29,11 @@ namespace tribodraw
     klu_numeric     *numeric  = nullptr;
     std::vector<int> start, column; // of the rows: the columns of the transpose, which is what is factorised
 
-    bool find_pivots(double *values);
-    bool is_regular(const std::vector<double> &values) const;
     void analyse(const SparseMatrix &matrix);
+    /// With the pivots of the last factors.
+    bool factor_again(double *values);
+    bool factor_anew(double *values);
+    bool is_regular(const double *values) const;
   };
 } // namespace tribodraw
 

@@ -327,9 +327,8 @@ namespace tribodraw
           value[diagonal] = 1;
           rhs[i]          = 0;
         }
-      if (!factor())
+      if (!solve_regularised(rhs))
         return false;
-      solver.solve(rhs);
       for (std::size_t i = 0; i < size(); ++i)
         if (pressure_is_unknown(i))
           {
@@ -344,14 +343,14 @@ namespace tribodraw
     /// A film that is full and sealed all around has no definite pressure level: a slight compressibility finds on
     /// which side of the bounds it lies, after which the sets change and the system is regular again.
     bool
-    factor()
+    solve_regularised(Eigen::VectorXd &rhs)
     {
-      if (solver.factor(matrix))
+      if (solver.solve(matrix, rhs))
         return true;
       for (int i = 0; i < matrix.size(); ++i)
         if (pressure_is_unknown(i))
           matrix.values()[matrix.position(i, i)] *= 1. + sealed_film_compressibility;
-      return solver.factor(matrix);
+      return solver.solve(matrix, rhs);
     }
 
     /// The state in which a node should be, judged by the present solution.

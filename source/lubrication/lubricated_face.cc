@@ -36,76 +36,105 @@ namespace tribodraw
                                  std::shared_ptr<const ViscosityLaw> viscosity, std::vector<double> supplied_film,
                                  const LubricationSettings &lubrication_settings)
       : edge(std::move(free_edge)), tables(std::move(friction_tables)), viscosity_law(std::move(viscosity)),
-        settings(lubrication_settings), reynolds(reference, triangles, settings.phi_p_floor),
-        patch(reference.size(), triangles), supply(std::move(supplied_film)), state(reference.size()),
-        slid(reference.size(), Eigen::Vector3d::Zero()), touched(reference.size(), 0.)
+        settings(lubrication_settings), patch(reference.size(), triangles), supply(std::move(supplied_film))
   {
-    if (tables.empty() || !viscosity_law || edge.size() != reference.size()
-        || supply.size() != reference.size())
+    accepted.nodes.resize(reference.size());
+    accepted.slid.assign(reference.size(), Eigen::Vector3d::Zero());
+    accepted.touched.assign(reference.size(), 0.);
+    if (tables.empty() || !viscosity_law || edge.size() != reference.size() || supply.size() != reference.size())
       throw InputError(describe_error(
-          "A lubricated face needs friction tables, a viscosity law, and an edge mark and a film for each node", "set-up of the film"));
+          "A lubricated face needs friction tables, a viscosity law, and an edge mark and a film for each node",
+          "set-up of the film"));
     patch.move_to(reference);
     reference_area = patch.nodal_area();
     double top     = -1e300;
     for (const auto &t : tables)
       top = std::max(top, t->initial_cut_height);
-    for (std::size_t i = 0; i < state.size(); ++i)
+    for (std::size_t i = 0; i < reference.size(); ++i)
       {
-        state[i].cut_height    = top;
-        state[i].supplied_film = supply[i];
-        set_film(state[i], table(0));
-        state[i].friction_coefficient = fresh_friction(state[i]);
+        Node &node         = accepted.nodes[i];
+        node.cut_height    = top;
+        node.supplied_film = supply[i];
+        set_film(node, table(0));
+        node.friction_coefficient = fresh_friction(node);
       }
-    figures.supplied_volume = figures.volume = patch.integral(supply);
+    accepted.figures.supplied_volume = accepted.figures.volume = patch.integral(supply);
     if (settings.supply == LubricationSettings::Supply::film_transport)
       {
         transport = std::make_unique<FilmTransport>(reference, triangles, settings.phi_p_floor);
         for (std::size_t i = 0; i < supply.size(); ++i)
-          volume.push_back(supply[i] * reference_area[i]);
+          accepted.volume.push_back(supply[i] * reference_area[i]);
       }
+    else
+      reynolds = std::make_unique<AverageReynolds>(reference, triangles, settings.phi_p_floor);
+  }
+
+  bool
+  LubricatedFace::attempt(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                          const Increment &increment)
+  {
+    const timing::Scope timer("lubrication/face");
+    check(positions, contacts);
+    // The last attempt is nearer to the solution than what was there before the increment.
+    const std::vector<Node> guess = attempted.nodes.empty() ? accepted.nodes : std::move(attempted.nodes);
+    attempted                     = accepted;
+    if (!accumulate(contacts, increment))
+      return false;
+    const double dt = increment.at_rest ? increment.dt : attempted.elapsed;
+    patch.move_to(positions);
+    const std::size_t            n = accepted.nodes.size();
+    std::vector<Eigen::Vector3d> slip(n, Eigen::Vector3d::Zero());
+    if (!increment.at_rest)
+      slip = mean_slip_velocity();
+    prepare_nodes(attempted.nodes, contacts);
+    if (transport)
+      transport_film(positions, contacts, slip, guess, dt, increment.preliminary ? 1 : settings.film_iterations);
+    else
+      iterate_film(positions, contacts, slip,
+                   increment.at_rest ? std::vector<double>(n, 0.) : lubricant_pressures(accepted.nodes),
+                   increment.at_rest ? 0. : dt);
+    find_friction(slip);
+
+    attempted.earlier_pressure[1] = std::move(attempted.earlier_pressure[0]);
+    attempted.earlier_pressure[0] = lubricant_pressures(accepted.nodes);
+    ++attempted.n_updates;
+    attempted.figures.n_unsettled += !attempted.figures.converged;
+    find_statistics(dt);
+    attempted.forget_motion();
+    return true;
+  }
+
+  void
+  LubricatedFace::accept()
+  {
+    accepted = std::move(attempted);
+    forget_attempt();
   }
 
   bool
   LubricatedFace::update(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
                          const Increment &increment)
   {
-    const timing::Scope timer("lubrication/face");
-    check(positions, contacts);
-    if (!accumulate(contacts, increment))
-      return false;
-    const double dt = increment.at_rest ? increment.dt : elapsed;
-    patch.move_to(positions);
-    std::vector<Node>            nodes = state;
-    std::vector<Eigen::Vector3d> slip(nodes.size(), Eigen::Vector3d::Zero());
-    if (!increment.at_rest)
-      slip = mean_slip_velocity();
-    prepare_nodes(nodes, contacts);
-    if (transport)
-      transport_film(positions, nodes, contacts, slip, dt);
-    else
-      iterate_film(positions, nodes, contacts, slip,
-                   increment.at_rest ? std::vector<double>(nodes.size(), 0.) : lubricant_pressures(state),
-                   increment.at_rest ? 0. : dt);
-    find_friction(positions, nodes, slip);
+    const bool is_new = attempt(positions, contacts, increment);
+    accept();
+    return is_new;
+  }
 
-    earlier_pressure[1] = std::move(earlier_pressure[0]);
-    earlier_pressure[0] = lubricant_pressures(state);
-    state               = std::move(nodes);
-    ++n_updates;
-    figures.n_unsettled += !figures.converged;
-    find_statistics(dt);
-    forget_motion();
-    return true;
+  void
+  LubricatedFace::forget_attempt()
+  {
+    attempted = {};
   }
 
   void
   LubricatedFace::check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const
   {
-    if (positions.size() != state.size() || contacts.size() != state.size())
+    const std::size_t n = accepted.nodes.size();
+    if (positions.size() != n || contacts.size() != n)
       throw InputError(describe_error("Wrong number of nodes for the film of a face", "update of the film",
                                       std::to_string(positions.size()) + " positions, "
                                           + std::to_string(contacts.size()) + " contacts",
-                                      std::to_string(state.size())));
+                                      std::to_string(n)));
     for (std::size_t i = 0; i < contacts.size(); ++i)
       if (contacts[i].table >= static_cast<int>(tables.size()) || !std::isfinite(contacts[i].nominal_pressure)
           || !std::isfinite(contacts[i].eps_p))
@@ -127,7 +156,7 @@ namespace tribodraw
     for (std::size_t i = 0; i < nodes.size(); ++i)
       {
         Node &node         = nodes[i];
-        node.supplied_film = transport           ? volume[i] / patch.nodal_area()[i]
+        node.supplied_film = transport           ? accepted.volume[i] / patch.nodal_area()[i]
                              : settings.thinning ? supply[i] * reference_area[i] / patch.nodal_area()[i]
                                                  : supply[i];
         node.eps_p         = contacts[i].eps_p;
@@ -164,11 +193,12 @@ namespace tribodraw
   }
 
   void
-  LubricatedFace::find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                                const std::vector<Eigen::Vector3d> &slip_velocity)
+  LubricatedFace::find_friction(const std::vector<Eigen::Vector3d> &slip_velocity)
   {
-    const auto gradient        = reynolds.nodal_gradient(positions, lubricant_pressures(nodes));
-    figures.n_clamped_friction = 0;
+    std::vector<Node> &nodes     = attempted.nodes;
+    unsigned          &n_clamped = attempted.figures.n_clamped_friction;
+    const auto         gradient  = patch.gradient(lubricant_pressures(nodes));
+    n_clamped                    = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       {
         Node &node = nodes[i];
@@ -193,7 +223,7 @@ namespace tribodraw
           }
         const double mu           = shear / node.nominal_pressure;
         node.friction_coefficient = std::clamp(mu, settings.min_friction, settings.max_friction);
-        figures.n_clamped_friction += node.friction_coefficient != mu;
+        n_clamped += node.friction_coefficient != mu;
       }
   }
 
@@ -211,20 +241,24 @@ namespace tribodraw
   void
   LubricatedFace::find_statistics(const double time)
   {
-    const auto &area    = patch.nodal_area();
-    double      nominal = 0, lubricant = 0, starved = 0, capped = 0, shear = 0, change = 0;
+    Statistics                &figures = attempted.figures;
+    const std::vector<Node>   &nodes   = attempted.nodes;
+    const std::vector<double> &area    = patch.nodal_area();
+    double                     nominal = 0, lubricant = 0, starved = 0, capped = 0, shear = 0, change = 0;
     figures.contact_area = figures.volume = figures.max_lubricant_pressure = figures.nominal_pressure_there = 0;
     figures.max_node                                                                                        = -1;
     if (transport)
       figures.opening_volume = 0;
     figures.min_film = figures.max_film = 0;
-    for (std::size_t i = 0; i < state.size(); ++i)
+    for (std::size_t i = 0; i < nodes.size(); ++i)
       {
-        const Node &node = state[i];
+        const Node &node = nodes[i];
         figures.volume += area[i] * node.supplied_film;
         figures.opening_volume += area[i] * (transport ? node.lift : node.opening_rate * time);
-        if (n_updates > 2)
-          change += area[i] * std::abs(node.lubricant_pressure - 2. * earlier_pressure[0][i] + earlier_pressure[1][i]);
+        if (attempted.n_updates > 2)
+          change += area[i]
+                    * std::abs(node.lubricant_pressure - 2. * attempted.earlier_pressure[0][i]
+                               + attempted.earlier_pressure[1][i]);
         if (!node.in_contact())
           continue;
         figures.min_film
@@ -249,13 +283,15 @@ namespace tribodraw
     figures.capped_area_fraction  = ratio(capped, figures.contact_area);
     figures.mean_friction         = ratio(shear, nominal);
     figures.oscillation           = ratio(change, lubricant);
-    figures.volume_error          = ratio(figures.volume + figures.left_volume - figures.supplied_volume, figures.supplied_volume);
+    figures.volume_error
+        = ratio(figures.volume + figures.left_volume - figures.supplied_volume, figures.supplied_volume);
   }
 
   std::string
   LubricatedFace::report() const
   {
-    char text[400];
+    const Statistics &figures = accepted.figures;
+    char              text[400];
     std::snprintf(
         text, sizeof text,
         "mu %.4f, lubricant carries %.1f %%, starved %.1f %%, at bound %.1f %%, h %.2f-%.2f um, P_lub <= %.2f MPa"

@@ -7,25 +7,26 @@ namespace tribodraw
   bool
   LubricatedFace::accumulate(const std::vector<Contact> &contacts, const Increment &increment)
   {
+    State &s = attempted;
     if (increment.at_rest)
       {
-        forget_motion();
+        s.forget_motion();
         return true;
       }
-    elapsed += increment.dt;
-    travelled += std::abs(increment.travel);
-    for (std::size_t i = 0; i < slid.size(); ++i)
+    s.elapsed += increment.dt;
+    s.travelled += std::abs(increment.travel);
+    for (std::size_t i = 0; i < s.slid.size(); ++i)
       if (contacts[i].table >= 0)
         {
-          slid[i] += increment.dt * (contacts[i].sheet_velocity - contacts[i].tool_velocity);
-          touched[i] += increment.dt;
+          s.slid[i] += increment.dt * (contacts[i].sheet_velocity - contacts[i].tool_velocity);
+          s.touched[i] += increment.dt;
         }
     // Equal steps of the smallest travel shall not miss it by round-off.
-    return elapsed > 0 && travelled >= (1. - 1e-9) * settings.smallest_travel;
+    return s.elapsed > 0 && s.travelled >= (1. - 1e-9) * settings.smallest_travel;
   }
 
   void
-  LubricatedFace::forget_motion()
+  LubricatedFace::State::forget_motion()
   {
     elapsed = travelled = 0;
     slid.assign(slid.size(), Eigen::Vector3d::Zero());
@@ -58,6 +59,8 @@ namespace tribodraw
   std::vector<Eigen::Vector3d>
   LubricatedFace::mean_slip_velocity() const
   {
+    const auto                  &slid    = attempted.slid;
+    const auto                  &touched = attempted.touched;
     std::vector<Eigen::Vector3d> result;
     for (std::size_t i = 0; i < slid.size(); ++i)
       {

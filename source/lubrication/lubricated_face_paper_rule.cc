@@ -16,10 +16,12 @@ namespace tribodraw
   } // namespace
 
   void
-  LubricatedFace::iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                               const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                               std::vector<double> lubricant, const double dt)
+  LubricatedFace::iterate_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                               const std::vector<Eigen::Vector3d> &slip_velocity, std::vector<double> lubricant,
+                               const double dt)
   {
+    std::vector<Node> &nodes      = attempted.nodes;
+    Statistics        &figures    = attempted.figures;
     figures.active_set_iterations = figures.film_iterations = 0;
     figures.film_change                                     = 0;
     figures.converged                                       = true;
@@ -65,7 +67,7 @@ namespace tribodraw
     for (std::size_t i = 0; i < nodes.size(); ++i)
       {
         Node       &node = nodes[i];
-        const Node &old  = state[i];
+        const Node &old  = accepted.nodes[i];
         node.cut_height  = old.cut_height;
         // A node that has just come into contact is first pressed by its full load, else it would be judged on its
         // undeformed valleys and starve.
@@ -103,7 +105,7 @@ namespace tribodraw
       }
     if (settings.squeeze)
       add_squeeze(positions, nodes, contacts, lubricant, dt, data);
-    return reynolds.solve(positions, data, lubricant);
+    return reynolds->solve(positions, data, lubricant);
   }
 
   /// d h/d t at a fixed point of the tool = (rate at the material point) - U1 . grad h, at the end of the increment and
@@ -117,7 +119,7 @@ namespace tribodraw
     std::vector<double> film;
     for (const Node &node : nodes)
       film.push_back(node.film_thickness);
-    const auto both = [&](const std::size_t i) { return nodes[i].in_contact() && state[i].in_contact(); };
+    const auto both = [&](const std::size_t i) { return nodes[i].in_contact() && accepted.nodes[i].in_contact(); };
     std::vector<Eigen::Vector3d> gradient(nodes.size(), Eigen::Vector3d::Zero());
     std::vector<double>          weight(nodes.size(), 0.);
     for (const auto &t : patch.triangles())
@@ -141,11 +143,11 @@ namespace tribodraw
           const double step = pressure_step * nodes[i].nominal_pressure;
           const double side = lubricant[i] > step ? -step : step; // towards where the asperities are pressed
           const double h    = table(nodes[i].table)
-                               .film(advanced_cut_height(state[i], nodes[i], contacts[i], lubricant[i] + side))
+                               .film(advanced_cut_height(accepted.nodes[i], nodes[i], contacts[i], lubricant[i] + side))
                                .h_avg;
           const double slope    = std::max(0., (h - film[i]) / side);
           data[i].squeeze_slope = slope / dt;
-          data[i].squeeze       = (film[i] - slope * lubricant[i] - state[i].film_thickness) / dt
+          data[i].squeeze       = (film[i] - slope * lubricant[i] - accepted.nodes[i].film_thickness) / dt
                             - data[i].sheet_velocity.dot(gradient[i]) / weight[i];
         }
   }

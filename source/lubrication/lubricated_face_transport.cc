@@ -17,8 +17,7 @@ namespace tribodraw
     // Solid pressures, in parts of the nominal one, at which the gap of the touching surfaces is computed. It changes
     // most while the asperities carry little. Dividing the segment of the solution ten times finer changed the drawing
     // force by 0.02 %.
-    constexpr std::array<double, FilmTransport::GapCurve::max_points> solid_parts
-        = { 1., 0.6, 0.3, 0.15, 0.05, 0. };
+    constexpr std::array<double, FilmTransport::GapCurve::max_points> solid_parts = { 1., 0.6, 0.3, 0.15, 0.05, 0. };
 
     /// The cut height at which touching surfaces have a gap.
     double
@@ -42,7 +41,8 @@ namespace tribodraw
     for (unsigned k = 0; k < curve.n; ++k)
       {
         curve.pressure[k] = (1. - solid_parts[k]) * node.nominal_pressure;
-        curve.gap[k]      = table(node.table).film(advanced_cut_height(state[i], node, contact, curve.pressure[k])).h_avg;
+        curve.gap[k]
+            = table(node.table).film(advanced_cut_height(accepted.nodes[i], node, contact, curve.pressure[k])).h_avg;
         if (k > 0)
           curve.gap[k] = std::max(curve.gap[k], curve.gap[k - 1]);
       }
@@ -50,11 +50,13 @@ namespace tribodraw
   }
 
   void
-  LubricatedFace::transport_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                                 const std::vector<Contact>         &contacts,
-                                 const std::vector<Eigen::Vector3d> &slip_velocity, const double dt)
+  LubricatedFace::transport_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                                 const std::vector<Eigen::Vector3d> &slip_velocity, const std::vector<Node> &guess,
+                                 const double dt, const unsigned n_iterations)
   {
-    const std::size_t                    n = nodes.size();
+    std::vector<Node>                   &nodes   = attempted.nodes;
+    Statistics                          &figures = attempted.figures;
+    const std::size_t                    n       = nodes.size();
     std::vector<FilmTransport::NodeData> data(n);
     std::vector<double>                  p(n, 0.), opened(n, 0.), last_step(n, 0.);
     FilmTransport::Result                result; // also where the sets start
@@ -65,25 +67,25 @@ namespace tribodraw
         auto &d          = data[i];
         d.kind           = !nodes[i].in_contact() ? Kind::carried : edge[i] ? Kind::border : Kind::film;
         d.sheet_velocity = d.mesh_velocity = slip_velocity[i]; // in the frame of the tool
-        d.old_volume                       = volume[i];
+        d.old_volume                       = accepted.volume[i];
         d.p_limit                          = nodes[i].nominal_pressure;
         if (d.kind == Kind::carried)
           continue;
         d.closed = gap_curve(i, nodes[i], contacts[i]);
         if (d.kind == Kind::film)
           // Trapped lubricant follows the load.
-          p[i] = state[i].in_contact() ? state[i].lubricant_pressure / state[i].nominal_pressure * d.p_limit : 0.;
+          p[i] = guess[i].in_contact() ? guess[i].lubricant_pressure / guess[i].nominal_pressure * d.p_limit : 0.;
         // The flow sees the lift of the last update: the present one in turn with the pressure would not settle.
-        if (state[i].regime == Regime::full)
+        if (accepted.nodes[i].regime == Regime::full)
           opened[i] = nodes[i].supplied_film;
         result.pressure[i] = p[i];
-        result.fill[i]     = nodes[i].supplied_film / d.closed.gap[0];
+        result.fill[i]     = guess[i].supplied_film / d.closed.gap[0];
       }
     figures.active_set_iterations = figures.film_iterations = 0;
     figures.film_change                                     = 0;
     figures.converged                                       = !(dt > 0);
     double relaxation                                       = settings.film_relaxation;
-    for (unsigned iteration = 1; iteration <= settings.film_iterations && dt > 0; ++iteration)
+    for (unsigned iteration = 1; iteration <= n_iterations && dt > 0; ++iteration)
       {
         for (std::size_t i = 0; i < n; ++i)
           if (auto &d = data[i]; d.kind != Kind::carried)
@@ -124,7 +126,7 @@ namespace tribodraw
       {
         if (dt > 0)
           {
-            volume[i] = std::max(0., result.volume[i]);
+            attempted.volume[i] = std::max(0., result.volume[i]);
             figures.left_volume += dt * result.outflow[i];
           }
         set_transported_film(i, nodes[i], data[i], contacts[i], dt > 0 ? &result : nullptr);
@@ -136,14 +138,14 @@ namespace tribodraw
                                        const Contact &contact, const FilmTransport::Result *result) const
   {
     const FrictionTable &t  = table(node.table);
-    node.supplied_film      = volume[i] / patch.nodal_area()[i];
+    node.supplied_film      = attempted.volume[i] / patch.nodal_area()[i];
     node.lubricant_pressure = result && data.kind == Kind::film ? result->pressure[i] : 0.;
     node.solid_pressure     = node.nominal_pressure - node.lubricant_pressure;
     double opened           = 0;
     if (node.in_contact())
       {
         const bool full = result && result->fill[i] >= 1.; // on the edge of the blank without pressure
-        node.cut_height = advanced_cut_height(state[i], node, contact, node.lubricant_pressure);
+        node.cut_height = advanced_cut_height(accepted.nodes[i], node, contact, node.lubricant_pressure);
         node.regime     = !result || full ? Regime::mixed : Regime::boundary;
         if (full && node.lubricant_pressure >= data.p_limit)
           {
@@ -152,7 +154,7 @@ namespace tribodraw
           }
         else if (full && settings.memory)
           // The surfaces touch around the lubricant there is: free of the error between the points of the curve.
-          node.cut_height = std::min(state[i].cut_height, cut_height_of(t, node.supplied_film));
+          node.cut_height = std::min(accepted.nodes[i].cut_height, cut_height_of(t, node.supplied_film));
       }
     const auto touching   = t.film(node.cut_height);
     const auto film       = lifted_film(touching, opened);

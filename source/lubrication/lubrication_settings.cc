@@ -21,6 +21,36 @@ namespace tribodraw
         Default{ "1e-3", "below percolation it is zero; forces agree within 0.1 % for 1e-2 to 1e-4" });
   }
 
+  void
+  LubricationSettings::read_friction_loop(Parameters &parameters)
+  {
+    const bool iterated
+        = parameters.choice("Friction loop", { "staggered", "iterated" },
+                            "`staggered`: the sheet moves with the friction of the increment before, as in the paper. "
+                            "`iterated`: film and friction are found from the increment's own pressures and velocities "
+                            "while its equilibrium is sought, until they belong to it.",
+                            Default{ "staggered", "with increments of 1 mm the punch force is 0.8 % smaller than "
+                                                  "iterated, which takes a tenth more Newton iterations" })
+          == "iterated";
+    if (!iterated && !parameters.documentation_mode())
+      {
+        parameters.mark_unselected("Friction loops");
+        parameters.mark_unselected("Friction tolerance");
+        return;
+      }
+    friction_loops = static_cast<unsigned>(parameters.integer(
+        "Friction loops", Range::between(1, 100),
+        "`Friction loop = iterated` only: how often friction is changed in an increment at most; then the increment is "
+        "accepted, and a warning at the end counts these.",
+        Default{ "20", "usually two or three are needed" }));
+    friction_tolerance = parameters.quantity(
+        "Friction tolerance", "", Range{ 1e-8, 0.5 },
+        "`Friction loop = iterated` only: the loop ends when the coefficients of the film differ from those that act by "
+        "less than this, in parts of the friction force (sum of |change| times force over sum of coefficient times "
+        "force).",
+        Default{ "0.01", "a punch force within 0.1 %; the change from increment to increment is 10 %" });
+  }
+
   LubricationSettings
   LubricationSettings::read(Parameters &parameters)
   {
@@ -102,6 +132,7 @@ namespace tribodraw
     s.max_friction = parameters.quantity(
         "Largest friction coefficient", "", Range{ 0., 1., true }, "Upper limit of the local friction coefficient.",
         Default{ "0.3", "the power law of the boundary layer has no limit when a flattened node is unloaded" });
+    s.read_friction_loop(parameters);
     if (s.min_friction > s.max_friction)
       parameters.problem("Smallest friction coefficient", "It is above `Largest friction coefficient`.");
     return s;

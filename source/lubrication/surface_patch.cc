@@ -8,7 +8,7 @@ namespace tribodraw
 {
   SurfacePatch::SurfacePatch(const std::size_t n_nodes, std::vector<std::array<unsigned, 3>> triangles)
       : cells(std::move(triangles)), adjacent(n_nodes), area(n_nodes, 0.), cell_area(cells.size(), 0.),
-        normals(n_nodes, Eigen::Vector3d::Zero())
+        slopes(cells.size()), normals(n_nodes, Eigen::Vector3d::Zero())
   {
     for (const auto &t : cells)
       for (unsigned k = 0; k < 3; ++k)
@@ -31,8 +31,9 @@ namespace tribodraw
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
         const auto           &t = cells[c];
-        const Eigen::Vector3d n = 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-        cell_area[c]            = n.norm();
+        const Eigen::Vector3d a = x[t[1]] - x[t[0]], b = x[t[2]] - x[t[0]], n = 0.5 * a.cross(b);
+        cell_area[c] = n.norm();
+        slopes[c]    = { b.cross(n) / (2. * cell_area[c]), n.cross(a) / (2. * cell_area[c]) };
         for (const unsigned i : t)
           {
             area[i] += cell_area[c] / 3.;
@@ -53,6 +54,24 @@ namespace tribodraw
         const double mean = (values[t[0]] + values[t[1]] + values[t[2]]) / 3.;
         for (const unsigned i : t)
           sum[i] += cell_area[c] / 3. * mean;
+      }
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] /= area[i];
+    return sum;
+  }
+
+  std::vector<Eigen::Vector3d>
+  SurfacePatch::gradient(const std::vector<double> &values) const
+  {
+    std::vector<Eigen::Vector3d> sum(values.size(), Eigen::Vector3d::Zero());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        const auto           &t = cells[c];
+        const double          a = values[t[1]] - values[t[0]], b = values[t[2]] - values[t[0]];
+        const Eigen::Vector3d share = (a * slopes[c][0] + b * slopes[c][1]) / 3.;
+        if (a != 0 || b != 0)
+          for (const unsigned i : t)
+            sum[i] += share;
       }
     for (std::size_t i = 0; i < sum.size(); ++i)
       sum[i] /= area[i];

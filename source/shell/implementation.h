@@ -76,7 +76,7 @@ namespace tribodraw
 
     shell_element::NodeState node_state(unsigned element, const Configuration &configuration) const;
     /// Thickness means of the equivalent plastic strain and the largest value of an owned element.
-    double mean_eps_p(std::size_t owned_index) const;
+    double mean_eps_p(const std::vector<PlasticState> &points, std::size_t owned_index) const;
     double max_eps_p(std::size_t owned_index) const;
     /// Update what is derived from the committed element states; collective.
     void update_derived();

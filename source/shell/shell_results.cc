@@ -37,11 +37,11 @@ namespace tribodraw
   } // namespace
 
   double
-  Shell::Implementation::mean_eps_p(const std::size_t k) const
+  Shell::Implementation::mean_eps_p(const std::vector<PlasticState> &points, const std::size_t k) const
   {
     double mean = 0;
     for (std::size_t point = 0; point < n_points(); ++point)
-      mean += rule.weight[point % rule.weight.size()] * old_points[k * n_points() + point].eps_p;
+      mean += rule.weight[point % rule.weight.size()] * points[k * n_points() + point].eps_p;
     return mean / shell_element::n_in_plane;
   }
 
@@ -62,7 +62,7 @@ namespace tribodraw
     for (std::size_t k = 0; k < owned().size(); ++k)
       {
         const unsigned element = owned()[k];
-        const double   eps_p   = mean_eps_p(k);
+        const double   eps_p   = mean_eps_p(old_points, k);
         for (const unsigned node : mesh.triangles[element])
           {
             const double share = element_area[element] / 3 / node_area[node];
@@ -102,6 +102,24 @@ namespace tribodraw
     return data->node_eps_p;
   }
 
+  std::vector<double>
+  Shell::trial_node_eps_p() const
+  {
+    const Implementation &d = *data;
+    if (!d.assembled)
+      throw std::logic_error("Shell::trial_node_eps_p: the trial configuration was not assembled (or not successfully).");
+    std::vector<double> sums(d.mesh.nodes.size(), 0.);
+    for (std::size_t k = 0; k < d.owned().size(); ++k)
+      {
+        const unsigned element = d.owned()[k];
+        const double   share   = d.element_area[element] / 3 * d.mean_eps_p(d.new_points, k);
+        for (const unsigned node : d.mesh.triangles[element])
+          sums[node] += share / d.node_area[node];
+      }
+    parallel::sum(sums);
+    return sums;
+  }
+
   const std::vector<double> &
   Shell::node_reference_area() const
   {
@@ -123,7 +141,7 @@ namespace tribodraw
     };
     ElementResults results;
     results.thickness          = d.gather([&d](const std::size_t k) { return d.thickness * d.stretch[k]; });
-    results.eps_p              = d.gather([&d](const std::size_t k) { return d.mean_eps_p(k); });
+    results.eps_p              = d.gather([&d](const std::size_t k) { return d.mean_eps_p(d.old_points, k); });
     results.max_eps_p          = d.gather([&d](const std::size_t k) { return d.max_eps_p(k); });
     results.major_strain       = d.gather([&](const std::size_t k) { return principal_strain(k, 1); });
     results.minor_strain       = d.gather([&](const std::size_t k) { return principal_strain(k, -1); });

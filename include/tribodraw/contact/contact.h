@@ -107,7 +107,7 @@ namespace tribodraw
     /// Accept the trial state: elastic slips, tool positions, dissipation; lag areas and thickness.
     void commit();
 
-    /// Committed state of a face, per node: mean of what the points around the node feel.
+    /// State of a face, per node: mean of what the points around the node feel.
     struct FaceState
     {
       std::vector<double>          pressure; ///< nominal, per current area [MPa]
@@ -115,7 +115,10 @@ namespace tribodraw
       std::vector<double>          gap;      ///< distance of the face from the tools at the node [mm], negative: penetration
       std::vector<Eigen::Vector3d> slip;     ///< relative sliding of the last increment [mm]
     };
+    /// Of the committed state.
     const FaceState &face(Face f) const { return faces[static_cast<int>(f)]; }
+    /// As it will be if the state of the last assemble() is accepted.
+    std::array<FaceState, n_faces> trial_faces() const;
     /// Count energies from the committed state on: tools that touch before the holder closes already lean on the transition
     /// range, and nobody worked for that.
     void start_energy_balance();
@@ -170,7 +173,6 @@ namespace tribodraw
     Law      friction_at(const FrictionLaw &law, unsigned point, double pressure) const;
     Response evaluate(unsigned point, unsigned t, const Eigen::Vector3d &position, const Options &options);
     void     measure_sheet();
-    void     find_face_states();
 
     const Shell                          &sheet;
     ContactPoints                         points;

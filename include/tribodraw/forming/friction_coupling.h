@@ -11,18 +11,17 @@
 
 namespace tribodraw
 {
-  /// Where the friction coefficient of each node comes from. Called by the forming loop after each converged increment,
-  /// before it is committed; the result acts in the next increment (staggered, paper Fig. 8).
+  /// Where the friction coefficient of each node comes from. Each accepted increment gives new coefficients, with which
+  /// the next one starts (staggered, paper Fig. 8); a coupling may also change them within the increment (iterated).
   class FrictionCoupling
   {
   public:
-    /// The increment that has just converged.
+    /// The increment at hand.
     struct Increment
     {
-      double              dt     = 0;     ///< [s]
-      double              travel = 0;     ///< punch travel in the increment [mm]
-      std::vector<Eigen::Vector3d> tool_velocity; ///< of each tool [mm/s]
-      bool                closing = false; ///< blank holder closes, punch at rest
+      double dt      = 0;     ///< [s]
+      double travel  = 0;     ///< punch travel in the increment [mm]
+      bool   closing = false; ///< blank holder closes, punch at rest
     };
     /// Figures for history.csv and the screen; index 0: punch side, 1: die side.
     struct Summary
@@ -36,7 +35,12 @@ namespace tribodraw
     virtual ~FrictionCoupling() = default;
     /// Coefficients at the start.
     virtual void start(const Shell &shell, Contact &contact) = 0;
-    /// New coefficients from the committed contact state.
+    /// At trial states of shell and contact that are close to equilibrium or in it: whether the coefficients that belong to
+    /// them differ from those that act. If so they are handed to the contact, and the search goes on. Accepts nothing.
+    virtual bool iterate(const Shell &, Contact &, const Increment &, bool /*in_equilibrium*/) { return false; }
+    /// The increment has failed: back to the coefficients of the committed state.
+    virtual void revert(Contact &) {}
+    /// The increment is accepted: new coefficients from the committed states of shell and contact.
     virtual void update(const Shell &shell, Contact &contact, const Increment &increment) = 0;
     virtual Summary summary() const = 0;
     /// Nodal fields for output by their names in the design, NaN where there is no contact.

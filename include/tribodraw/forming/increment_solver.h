@@ -5,6 +5,7 @@
 #include <tribodraw/shell/loads.h>
 #include <tribodraw/shell/shell.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ namespace tribodraw
     {
       bool        converged  = false;
       unsigned    iterations = 0;
+      unsigned    first_iterations = 0; ///< up to the first equilibrium: how hard the increment is
       double      residual   = 0; ///< relative to the forces that act on the blank
       double      correction = 0; ///< last [mm]
       std::string reason;         ///< why it did not converge
@@ -68,7 +70,9 @@ namespace tribodraw
 
     /// Find equilibrium at the end of the increment. On success the trial states of shell and contact are the solution
     /// (not committed); on failure both are back at the committed state.
-    Outcome solve(const Load &load);
+    /// @param update_friction called when the trial states are close to equilibrium and, with `true`, when they have
+    /// reached it: whether it has changed the friction coefficients of the contact. Then the iteration goes on from there.
+    Outcome solve(const Load &load, const std::function<bool(bool in_equilibrium)> &update_friction = {});
 
     /// Force (moment) of the supports on the blank at each fixed unknown in the last solution, zero elsewhere [N, N mm].
     const Eigen::VectorXd &reactions() const { return reaction; }

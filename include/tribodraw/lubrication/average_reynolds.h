@@ -67,10 +67,8 @@ namespace tribodraw
     Result solve(const std::vector<Eigen::Vector3d> &positions, const std::vector<NodeData> &nodes,
                  const std::vector<double> &start = {}) const;
 
-    /// Load (integral of p) and gradient of p at the nodes (area-averaged, in space) for given positions.
+    /// Load (integral of p) for given positions.
     double load(const std::vector<Eigen::Vector3d> &positions, const std::vector<double> &pressure) const;
-    std::vector<Eigen::Vector3d> nodal_gradient(const std::vector<Eigen::Vector3d> &positions,
-                                                const std::vector<double>          &pressure) const;
 
   private:
     struct Implementation;

@@ -20,9 +20,9 @@ namespace tribodraw
 
   /// One face of the blank (the die side or the punch side): asperities, film and friction of every node.
   ///
-  /// Once per increment, as the paper's Fig. 8 and with its inconsistencies resolved: nominal pressure -> cut height s
+  /// For each increment, as the paper's Fig. 8 and with its inconsistencies resolved: nominal pressure -> cut height s
   /// of the asperities (a state that never rises) -> lubricant pressure, 0 <= P_lub <= P_nom -> shear stress ->
-  /// friction coefficient for the next increment.
+  /// friction coefficient. attempt() finds what an increment makes of the face as often as wanted, accept() keeps it.
   ///
   /// Film transport: every node carries a volume of lubricant. Where a tool touches, FilmTransport finds how it moves
   /// and which pressure it takes: the gap h_avg(s) depends on P_lub through the solid pressure P_nom - P_lub that
@@ -64,6 +64,7 @@ namespace tribodraw
       double dt      = 0;     ///< [s]
       double travel  = 0;     ///< of the punch [mm]
       bool   at_rest = false; ///< the blank holder closes, nothing slides: asperities carry all, velocities are ignored
+      bool   preliminary = false; ///< another attempt will follow: one film solution does
     };
 
     /// State and results of a node.
@@ -122,22 +123,37 @@ namespace tribodraw
                    std::shared_ptr<const ViscosityLaw> viscosity_law, std::vector<double> supplied_film,
                    const LubricationSettings &settings);
 
-    /// To be called once after each converged increment, however small. Motion is accumulated over increments until the
-    /// punch has travelled Settings::smallest_travel; until then the last film and coefficients stay (elastic slip and
-    /// rebound make the velocity of a tiny increment meaningless). Increments at rest always count.
+    /// What the increment from the accepted state to this contact makes of the face; the accepted state stays. Motion
+    /// is accumulated over increments until the punch has travelled Settings::smallest_travel; until then the last film
+    /// and coefficients stay (elastic slip and rebound make the velocity of a tiny increment meaningless). Increments
+    /// at rest always count.
     /// @return whether film and coefficients are new
+    bool attempt(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                 const Increment &increment);
+    /// Keep the last attempt. Every increment that is accepted must come here, however small.
+    void accept();
+    /// Both at once.
     bool update(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
                 const Increment &increment);
+    /// Forget the last attempt, from which the next one would start its iteration.
+    void forget_attempt();
 
+    /// Of the accepted state.
     const std::vector<Node> &
     nodes() const
     {
-      return state;
+      return accepted.nodes;
     }
     const Statistics &
     statistics() const
     {
-      return figures;
+      return accepted.figures;
+    }
+    /// Of the last attempt that has not been accepted.
+    const std::vector<Node> &
+    attempted_nodes() const
+    {
+      return attempted.nodes;
     }
     /// One line for the log.
     std::string report() const;
@@ -151,23 +167,29 @@ namespace tribodraw
     std::vector<std::shared_ptr<const FrictionTable>> tables;
     std::shared_ptr<const ViscosityLaw>               viscosity_law;
     LubricationSettings                               settings;
-    AverageReynolds                                   reynolds;
-    std::unique_ptr<FilmTransport>                    transport; ///< paper rule: none
+    std::unique_ptr<AverageReynolds>                  reynolds;  ///< paper rule
+    std::unique_ptr<FilmTransport>                    transport; ///< film transport
     SurfacePatch                                      patch;
 
     std::vector<double> supply;         ///< h_inp per node on the undeformed face [mm]
     std::vector<double> reference_area; ///< per node
-    std::vector<double> volume;         ///< film transport: lubricant per node [mm^3]
-    std::vector<Node>   state;
-    Statistics          figures;
 
-    // motion since the last update of the film
-    double                       elapsed = 0, travelled = 0;
-    std::vector<Eigen::Vector3d> slid;    ///< sheet minus tool while touching [mm]
-    std::vector<double>          touched; ///< time of touching [s]
-    // lubricant pressures of the last two updates
-    std::array<std::vector<double>, 2> earlier_pressure;
-    unsigned                           n_updates = 0;
+    struct State
+    {
+      std::vector<Node>   nodes;
+      std::vector<double> volume; ///< film transport: lubricant per node [mm^3]
+      Statistics          figures;
+      // motion since the last update of the film
+      double                       elapsed = 0, travelled = 0;
+      std::vector<Eigen::Vector3d> slid;    ///< sheet minus tool while touching [mm]
+      std::vector<double>          touched; ///< time of touching [s]
+      // lubricant pressures of the last two updates
+      std::array<std::vector<double>, 2> earlier_pressure;
+      unsigned                           n_updates = 0;
+
+      void forget_motion();
+    };
+    State accepted, attempted; ///< `attempted` has no nodes while there is none
 
     const FrictionTable &
     table(int index) const
@@ -175,32 +197,30 @@ namespace tribodraw
       return *tables[index];
     }
     void check(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts) const;
-    void forget_motion();
     std::vector<Eigen::Vector3d> mean_slip_velocity() const;
     std::vector<int>             touched_tables(const std::vector<Contact> &contacts) const;
     bool                         accumulate(const std::vector<Contact> &contacts, const Increment &increment);
-    void prepare_nodes(std::vector<Node> &nodes, const std::vector<Contact> &contacts) const;
+    void                         prepare_nodes(std::vector<Node> &nodes, const std::vector<Contact> &contacts) const;
     double advanced_cut_height(const Node &old, const Node &node, const Contact &contact, double lubricant) const;
-    void   iterate_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                        const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                        std::vector<double> lubricant, double dt);
-    void   transport_film(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                          const std::vector<Contact> &contacts, const std::vector<Eigen::Vector3d> &slip_velocity,
-                          double dt);
+    void   iterate_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                        const std::vector<Eigen::Vector3d> &slip_velocity, std::vector<double> lubricant, double dt);
+    /// @param guess nodes with whose state the iteration starts
+    void transport_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Contact> &contacts,
+                        const std::vector<Eigen::Vector3d> &slip_velocity, const std::vector<Node> &guess, double dt,
+                        unsigned n_iterations);
     FilmTransport::GapCurve gap_curve(std::size_t i, const Node &node, const Contact &contact) const;
     void set_transported_film(std::size_t i, Node &node, const FilmTransport::NodeData &data, const Contact &contact,
                               const FilmTransport::Result *result) const;
-    void   flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
-                   const std::vector<double> &lubricant) const;
+    void flatten(std::vector<Node> &nodes, const std::vector<Contact> &contacts,
+                 const std::vector<double> &lubricant) const;
     AverageReynolds::Result solve_film(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
                                        const std::vector<Contact>         &contacts,
                                        const std::vector<Eigen::Vector3d> &slip_velocity,
                                        const std::vector<double> &lubricant, double dt) const;
-    void add_squeeze(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
-                     const std::vector<Contact> &contacts, const std::vector<double> &lubricant, double dt,
-                     std::vector<AverageReynolds::NodeData> &data) const;
-    void                    find_friction(const std::vector<Eigen::Vector3d> &positions, std::vector<Node> &nodes,
-                                          const std::vector<Eigen::Vector3d> &slip_velocity);
+    void                    add_squeeze(const std::vector<Eigen::Vector3d> &positions, const std::vector<Node> &nodes,
+                                        const std::vector<Contact> &contacts, const std::vector<double> &lubricant, double dt,
+                                        std::vector<AverageReynolds::NodeData> &data) const;
+    void                    find_friction(const std::vector<Eigen::Vector3d> &slip_velocity);
     void                    find_statistics(double time);
     double                  viscosity(const Node &node, const Eigen::Vector3d &slip_velocity, double pressure) const;
     double                  boundary_layer_pressure(const Node &node) const;

@@ -35,6 +35,8 @@ namespace tribodraw
     double                fresh_contact_pressure  = 3;   ///< for the coefficient of nodes that are not in contact [MPa]
     double                smallest_travel         = 0.2; ///< punch travel between film solutions [mm]
     double                min_friction = 0.005, max_friction = 0.3;
+    unsigned              friction_loops = 0; ///< equilibria sought again in an increment at most; 0: staggered
+    double                friction_tolerance = 0; ///< change of the friction force at which the loop ends, relative
     double                phi_p_floor = 1e-3; ///< smallest eigenvalue of PhiP
 
     /// Reads `Coupling` and `Lubricant/Supply`; call at the top level of the file.
@@ -42,6 +44,9 @@ namespace tribodraw
     /// Reads the two entries of the current subsection (`Coupling`) that every contact with asperities needs:
     /// `Boundary layer pressure` and `Smallest pressure factor`.
     void read_micro_settings(Parameters &parameters);
+
+  private:
+    void read_friction_loop(Parameters &parameters);
   };
 } // namespace tribodraw
 

@@ -31,6 +31,8 @@ namespace tribodraw
     }
     /// One area-weighted pass: mean of each triangle, then mean of the triangles around each node. Keeps the integral.
     std::vector<double> smooth(const std::vector<double> &values) const;
+    /// Gradient in space of nodal values that are linear over the triangles, at the nodes (area-weighted mean).
+    std::vector<Eigen::Vector3d> gradient(const std::vector<double> &values) const;
     /// Integral of nodal values.
     double integral(const std::vector<double> &values) const;
 
@@ -47,10 +49,11 @@ namespace tribodraw
     }
 
   private:
-    std::vector<std::array<unsigned, 3>> cells;
-    std::vector<std::vector<unsigned>>   adjacent;
-    std::vector<double>                  area, cell_area;
-    std::vector<Eigen::Vector3d>         normals;
+    std::vector<std::array<unsigned, 3>>        cells;
+    std::vector<std::vector<unsigned>>          adjacent;
+    std::vector<double>                         area, cell_area;
+    std::vector<std::array<Eigen::Vector3d, 2>> slopes; // area times the gradients of the shape functions 1 and 2
+    std::vector<Eigen::Vector3d>                normals;
   };
 } // namespace tribodraw
 

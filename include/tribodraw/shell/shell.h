@@ -85,6 +85,9 @@ namespace tribodraw
     /// @param internal_force resized to n_dofs (plus the matrix's extra unknowns if a tangent is given) and overwritten
     bool assemble(double time_increment, const AssemblyOptions &options, Eigen::VectorXd &internal_force,
                   SparseMatrix *tangent);
+    /// Equivalent plastic strain at the nodes as node_eps_p(), after the last assemble(), which must have succeeded with
+    /// the trial configuration. Collective.
+    std::vector<double> trial_node_eps_p() const;
     /// Accept the trial configuration and the history of the last assemble(), which must have succeeded with this
     /// configuration; updates thickness and energies. Collective.
     void commit();

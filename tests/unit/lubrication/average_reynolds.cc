@@ -1,6 +1,7 @@
 #include "film_mesh.h"
 
 #include <tribodraw/base/errors.h>
+#include <tribodraw/lubrication/surface_patch.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -167,10 +168,24 @@ TEST(AverageReynolds, SameResultOnATiltedPlane)
   const auto tilted = reynolds.solve(positions, nodes);
   EXPECT_LT(largest_difference(flat.pressure, tilted.pressure), 1e-10 * slider.unit_pressure());
   EXPECT_NEAR(reynolds.load(positions, tilted.pressure), reynolds.load(mesh.nodes, flat.pressure), 1e-10);
-  const auto g0 = reynolds.nodal_gradient(mesh.nodes, flat.pressure),
-             g1 = reynolds.nodal_gradient(positions, tilted.pressure);
-  for (std::size_t i = 0; i < g0.size(); ++i)
-    EXPECT_LT((Q * g0[i] - g1[i]).norm(), 1e-10);
+}
+
+TEST(SurfacePatch, GradientOfALinearFunctionOnATiltedSurface)
+{
+  const FilmMesh        mesh(7, 5, 10., 6., 0.25);
+  const Eigen::Matrix3d Q    = some_rotation();
+  const Eigen::Vector3d slope(0.7, -0.3, 0); // in the plane of the sheet, turned with it
+  auto                  positions = mesh.nodes;
+  std::vector<double>   values;
+  for (auto &x : positions)
+    {
+      values.push_back(slope.dot(x) + 2);
+      x = Q * x + Eigen::Vector3d(5, -3, 2);
+    }
+  SurfacePatch patch(positions.size(), mesh.triangles);
+  patch.move_to(positions);
+  for (const auto &g : patch.gradient(values))
+    EXPECT_LT((g - Q * slope).norm(), 1e-13);
 }
 
 TEST(AverageReynolds, TensorsTurnWithTheMaterial)
