@@ -59,6 +59,7 @@ class Fields:
         points, moved = self.values["points"], self.values["displacement"]
         self.place = points
         self.undeformed = [[x - u for x, u in zip(p, d)] for p, d in zip(points, moved)]
+        self.half_length = max(p[0] for p in self.undeformed)
         first = {}
         for corner, place in enumerate(self.undeformed):
             first.setdefault((round(place[0], 2), round(place[1], 2)), corner)
@@ -89,6 +90,9 @@ class Fields:
         """Nodes in contact, as the film sees it."""
         regime = self.values[f"lubrication_regime_{face}"]
         return [i for i in self.node if math.isfinite(regime[i]) and regime[i] > 0]
+
+    def on_outer_edge(self, i):
+        return max(self.undeformed[i][:2]) > self.half_length - 0.1
 
     def zone(self, i):
         """Where a node of the die side lies now: what of the tool is below it, and at which part of the outline of the cross
