@@ -4,6 +4,8 @@
 #include <tribodraw/base/units.h>
 #include <tribodraw/forming/blank.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -113,6 +115,16 @@ namespace tribodraw
       return any(mesh.on_y_plane) ? Blank::Symmetry::half_y : Blank::Symmetry::whole;
     }
 
+    /// Size of the elements of a mesh in the sense of `Element size`: the side of squares that are cut in two, of the largest
+    /// triangle.
+    double side_of_squares(const BlankMesh &mesh)
+    {
+      double largest = 0;
+      for (const auto &t : mesh.triangles)
+        largest = std::max(largest, (mesh.nodes[t[1]] - mesh.nodes[t[0]]).cross(mesh.nodes[t[2]] - mesh.nodes[t[0]]).norm());
+      return std::sqrt(largest);
+    }
+
     /// A mesh file is read at once, so that its mistakes are reported with all others.
     void read_mesh_file(Parameters &p, Blank &blank)
     {
@@ -136,7 +148,7 @@ namespace tribodraw
               blank.length = std::max(blank.length, 2 * std::abs(x[0]));
               blank.width  = std::max(blank.width, 2 * std::abs(x[1]));
             }
-          blank.element_size = mesh->largest_edge();
+          blank.element_size = side_of_squares(*mesh);
           blank.given_mesh   = mesh;
         }
       catch (const InputError &e)

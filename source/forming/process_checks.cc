@@ -78,11 +78,13 @@ namespace tribodraw
       double radius = 1e300;
       for (const auto &tool : c.tools.tools)
         radius = std::min(radius, tool.geometry->smallest_radius());
+      const std::string entry = c.blank.given_mesh ? "Blank/Mesh file" : "Blank/Element size";
       if (size > radius)
-        c.p.problem("Blank/Element size", "the mesh is too coarse for the smallest radius of the tools, " + units::format(radius, "mm") + ".",
+        c.p.problem(entry,
+                    "the mesh, of " + units::format(size, "mm") + ", is too coarse for the smallest radius of the tools, " + units::format(radius, "mm") + ".",
                     "at most " + units::format(radius, "mm"), "Half the radius or less gives smooth forces.");
       else if (size > 0.5 * radius)
-        c.p.warning("'Blank/Element size' is more than half the smallest radius of the tools (" + units::format(radius, "mm") + "): expect ripples in the punch force.");
+        c.p.warning("'" + entry + "': the elements, of " + units::format(size, "mm") + ", are larger than half the smallest radius of the tools (" + units::format(radius, "mm") + "): expect ripples in the punch force.");
     }
 
     /// A surface from a file in the wrong unit.
