@@ -41,7 +41,7 @@ def limit_diagram(study, file, title, clouds):
             "set key top right\nplot [-0.75:0.3][0:0.8] " + ", ".join(lines) + "\n")
 
 
-def relative_to(study, file, title, base, curves):
+def relative_to(study, file, title, base, curves, key_place="bottom left"):
     """Force of runs relative to that of @p base over travel."""
     blocks, lines = "", []
     for k, (name, colour, key) in enumerate(curves):
@@ -49,7 +49,7 @@ def relative_to(study, file, title, base, curves):
         blocks += f"$d{k} << EOD\n{rows}\nEOD\n"
         lines.append(f"$d{k} using 1:2 with lines lc rgb '{COLOURS[colour]}' title '{key}'")
     gnuplot(TERMINAL.format("1100,700", file) + blocks + f"set title '{title}'\nset xlabel 'Punch travel / mm'\nset ylabel 'Change of the punch force / %'\n"
-            "set key bottom left\nset object rectangle from 25, graph 0 to 35, graph 1 behind fc rgb '#eeeeee' fs noborder\n"
+            f"set key {key_place}\n" "set object rectangle from 25, graph 0 to 35, graph 1 behind fc rgb '#eeeeee' fs noborder\n"
             "plot [0:58] 0 with lines lc rgb 'black' lw 0.5 notitle, " + ", ".join(lines) + "\n")
 
 
@@ -80,8 +80,8 @@ def map_of_speed_and_viscosity(study, file, viscosities, speeds):
             "set title 'Mean punch force, 15-57 mm / kN'\nset xlabel 'Punch speed / mm/s'\nset ylabel 'Viscosity / mPa s'\n"
             f"set xtics {ticks(speeds)}\nset ytics {ticks(viscosities)}\nset palette defined (0 '#440154', 1 '#21918c', 2 '#fde725')\n"
             "plot [-0.5:3.5][-0.5:3.5] $map matrix with image notitle, $map matrix using 1:2:(sprintf('%.1f', $3)) with labels tc rgb 'white' notitle\n"
-            "unset xtics\nunset ytics\nset xtics auto\nset ytics auto\nset grid\nset logscale x\nset title 'The same over viscosity times speed'\n"
-            f"set xlabel 'Viscosity x speed / mPa s mm/s'\nset ylabel 'Mean punch force / kN'\nset key top right\nplot {curves}\nunset multiplot\n")
+            "unset xtics\nunset ytics\nset xtics auto\nset ytics auto\nset grid\nset logscale x\nset format x '10^{%T}'\nset title 'The same over viscosity times speed'\n"
+            f"set xlabel 'Viscosity x speed / mPa s mm/s'\nset ylabel 'Mean punch force / kN'\nset key top right\nplot [60:130000] {curves}\nunset multiplot\n")
 
 
 def draw(program, study, folder, beyond):
@@ -95,7 +95,7 @@ def draw(program, study, folder, beyond):
                 [("a1.0", 1, "1.0 g/m^2, 32 mPa s"), ("v1.0", 3, "1.0 g/m^2, 90 mPa s"), ("step0.6", 4, "0.6 g/m^2 with 5 % shorter increments")])
     if beyond:
         relative_to(study, folder / "squeeze.png", "2.0 g/m^2, against the rule of the paper without squeeze", "paper2.0",
-                    [("squeeze2.0", 1, "squeeze term kept"), ("a2.0", 0, "film transport")])
+                    [("squeeze2.0", 1, "squeeze term kept"), ("a2.0", 0, "film transport")], "top right")
         relative_to(study, folder / "lay.png", "2.0 g/m^2, against the surface without lay", "a2.0",
                     [("lay_x", 0, "lay along the rolling direction"), ("lay_y", 1, "lay across it"), ("step2.0", 4, "no lay, 5 % shorter increments")])
         band(study, folder / "surface_band.png", ["a2.0", *sorted(f.name for f in study.folder.glob("surface*") if f.is_dir())])
