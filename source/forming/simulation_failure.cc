@@ -20,6 +20,8 @@ namespace tribodraw
     constexpr double nearly = 100;
     /// Iteration limits below this one end increments that need no halving.
     constexpr unsigned few = 30;
+    /// Forces cannot be balanced much better than this part of their sum.
+    constexpr double round_off = 1e-11;
     /// A smallest increment above this share of the first one leaves little room for halving.
     constexpr double coarse = 0.05;
 
@@ -67,6 +69,8 @@ namespace tribodraw
     std::snprintf(residuals, sizeof residuals, "residual %.1e, asked %.1e", outcome.residual, settings.residual_tolerance);
     if (outcome.iterations >= settings.max_iterations && (settings.max_iterations < few || outcome.residual < nearly * settings.residual_tolerance))
       say("It ran out of iterations (" + std::string(residuals) + "): allow more than " + std::to_string(settings.max_iterations) + " 'Solver/Maximal iterations'.");
+    if (outcome.residual < round_off)
+      say("The forces are balanced but for round-off (" + std::string(residuals) + "): ask for less in 'Solver/Residual tolerance' or 'Solver/Displacement tolerance'.");
     if (stage == Stage::drawing && settings.smallest_increment > coarse * settings.first_increment)
       say("There was little room for smaller increments: 'Solver/Smallest increment' is " + units::format(settings.smallest_increment, "mm") + ", 'Solver/First increment' " +
           units::format(settings.first_increment, "mm") + ".");

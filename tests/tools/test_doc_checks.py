@@ -5,6 +5,7 @@ import tempfile
 import unittest
 
 import check_links
+import check_messages
 import check_parameters_doc
 
 
@@ -38,6 +39,30 @@ class Links(unittest.TestCase):
 
     def test_code_is_no_link(self):
         self.assertEqual(self.problems("`[x](c.md)`\n```\n[x](c.md)\n```\n"), [])
+
+
+class Messages(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        (self.root / "source" / "film").mkdir(parents=True)
+        (self.root / "source" / "film" / "a.cc").write_text(
+            'throw InputError(describe_error("The gap is " + f(x, ")") + " um wide.", file, "", "1 um", "Open the gap a little."));\n'
+            '// log::warning("Not a message at all.");\nlog::warning("The film did not settle.");')
+
+    def test_texts_are_taken_with_what_is_allowed_and_the_hint(self):
+        self.assertEqual(check_messages.messages(self.root), {"The gap is ... um wide.": ("film/a.cc", "", "Open the gap a little."),
+                                                              "The film did not settle.": ("film/a.cc", "", "")})
+
+    def test_a_message_without_section_and_a_stale_table_are_found(self):
+        page, problems = check_messages.tables(self.root, "text\n")
+        self.assertEqual(len(problems), 2)
+        page, problems = check_messages.tables(self.root, "text\n<!-- messages: film/* -->\n| old | | |\nend\n")
+        self.assertEqual(problems, [])
+        self.assertNotIn("old", page)
+        self.assertIn("| The film did not settle. |", page)
+        self.assertTrue(page.endswith("|\nend\n"))
 
 
 class Parameters(unittest.TestCase):
