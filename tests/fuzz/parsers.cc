@@ -1,49 +1,24 @@
 #include "fuzz/parsers.h"
+#include "fuzz/scratch_file.h"
 #include "unit/friction_table/sample_pair.h"
 
 #include <tribodraw/application/program.h>
-#include <tribodraw/base/archive.h>
-#include <tribodraw/base/csv.h>
 #include <tribodraw/base/face_mesh.h>
 #include <tribodraw/base/files.h>
-#include <tribodraw/base/units.h>
+#include <tribodraw/fluid/amount_map.h>
 #include <tribodraw/friction_table/coefficient_table.h>
 #include <tribodraw/friction_table/friction_table.h>
 #include <tribodraw/output/measured_table.h>
 #include <tribodraw/shell/blank_mesh.h>
-#include <tribodraw/surface/surface_reader.h>
 
-#include <unistd.h>
-
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 using namespace tribodraw;
 namespace fs = std::filesystem;
 
 namespace
 {
-  /// A file in memory where there is one, with the content of the moment.
-  class ScratchFile
-  {
-  public:
-    explicit ScratchFile(const std::string &content, const std::string &extension = "")
-    {
-      static const fs::path folder = fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path();
-      file = folder / ("tribodraw_fuzz_" + std::to_string(::getpid()) + extension);
-      std::ofstream(file, std::ios::binary) << content;
-    }
-    ~ScratchFile()
-    {
-      std::error_code ignored;
-      fs::remove(file, ignored);
-    }
-    const fs::path &path() const { return file; }
-
-  private:
-    fs::path file;
-  };
-
   std::vector<std::string>
   shipped_parameter_files()
   {
@@ -69,18 +44,6 @@ namespace
   }
 
   std::string
-  sample_archive()
-  {
-    Archive archive;
-    archive.put("numbers", std::vector<double>{ 1, 2.5, -3e-300 });
-    archive.put("empty", std::vector<double>{});
-    archive.put("text", std::string("Blank/Thickness = 0.82 mm\n"));
-    const ScratchFile file("");
-    archive.save(file.path());
-    return read_file(file.path());
-  }
-
-  std::string
   sample_coefficients()
   {
     CoefficientTable table;
@@ -90,13 +53,6 @@ namespace
     for (int i = 0; i < 12; ++i)
       table.values.push_back(0.05 + 0.01 * i);
     return table.to_json().dump();
-  }
-
-  void
-  read_numbers_of_all_columns(const CsvData &data)
-  {
-    for (const auto &column : data.columns)
-      data.numbers(column);
   }
 
   std::vector<FuzzedParser>
@@ -122,10 +78,7 @@ namespace
           "             0.8             0.8             0.8             0.8\n*ELEMENT_SHELL\n       2       7       1       2       3       3\n*END\n";
     return {
       { "parameters", true, read_parameters, shipped_parameter_files() },
-      { "quantity", true, [](const std::string &text) { units::parse_quantity(text, "mm"); }, { "0.82 mm", "1e-3 m", "25.4e3um " } },
-      { "csv", true, [](const std::string &text) { read_numbers_of_all_columns(read_csv(ScratchFile(text).path())); }, { csv } },
       { "measured table", true, [](const std::string &text) { read_measured_table(ScratchFile(text).path().string()); }, { csv } },
-      { "checkpoint", false, [](const std::string &text) { Archive::load(ScratchFile(text).path()); }, { sample_archive() } },
       { "friction table", true, [](const std::string &text) { FrictionTable::read(ScratchFile(text).path()); },
         { build_friction_table(test::sample_pair(64, true)).to_json().dump() } },
       { "coefficient table", true, [](const std::string &text) { CoefficientTable::read(ScratchFile(text).path()); },
@@ -133,6 +86,9 @@ namespace
       { "gmsh", true, [](const std::string &text) { read_blank_mesh(ScratchFile(text, ".msh").path()); }, { mesh, new_mesh } },
       { "abaqus", true, [](const std::string &text) { read_face_mesh(ScratchFile(text, ".inp").path()); }, { abaqus } },
       { "ls dyna", true, [](const std::string &text) { read_face_mesh(ScratchFile(text, ".k").path()); }, { ls_dyna } },
+      { "amount map", true, [](const std::string &text) { AmountMap::read(ScratchFile(text).path()).asymmetry(); },
+        { "x_mm,y_mm,amount_g_per_m2\n0,0,1\n0,9,2\n9,0,1\n9,9,0\n",
+          "x_mm,amount_punch_g_per_m2,amount_die_g_per_m2\n-5,1,1.5\n5,2,2.5\n" } },
     };
   }
 } // namespace
@@ -140,6 +96,10 @@ namespace
 const std::vector<FuzzedParser> &
 fuzzed_parsers()
 {
-  static const std::vector<FuzzedParser> parsers = make_parsers();
+  static const std::vector<FuzzedParser> parsers = [] {
+    std::vector<FuzzedParser> all = file_parsers(), program = make_parsers();
+    all.insert(all.end(), program.begin(), program.end());
+    return all;
+  }();
   return parsers;
 }

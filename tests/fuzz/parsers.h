@@ -14,7 +14,10 @@ struct FuzzedParser
   std::vector<std::string>                seeds; ///< valid contents, made by the program itself or shipped with it
 };
 
-/// All parsers of the program but those of instruments' files, which test_surface_formats treats.
+/// Those of files that need the modules base, surface and tools only.
+const std::vector<FuzzedParser> &file_parsers();
+
+/// All parsers of the program. (test_surface_formats and test_tools damage files of every surface and tool format in addition.)
 const std::vector<FuzzedParser> &fuzzed_parsers();
 
 #endif
