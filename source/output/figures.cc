@@ -104,6 +104,7 @@ namespace tribodraw::figures
     draw_history(folder);
     draw_maps(folder);
     draw_forming_limits(folder);
+    draw_cuts(folder);
   }
 
   void

@@ -35,6 +35,8 @@ namespace tribodraw::figures
       { "contact_fraction_die", "Real contact area, die side", "Share of the area", false },
       { "phi_p_die", "Pressure flow factor, die side", "Pressure flow factor", false },
       { "phi_s_die", "Shear flow factor, die side", "Shear flow factor", false },
+      { "lubrication_regime_die", "Lubrication regime, die side", "1 boundary, 2 mixed, 3 full film", false },
+      { "lubrication_regime_punch", "Lubrication regime, punch side", "1 boundary, 2 mixed, 3 full film", false },
     };
     constexpr MapInfo cell_maps[] = {
       { "thickness", "Sheet thickness", "Thickness", true },

@@ -1,6 +1,8 @@
 #ifndef tribodraw_output_figures_h
 #define tribodraw_output_figures_h
 
+#include <tribodraw/output/plot.h>
+
 #include <filesystem>
 
 namespace tribodraw
@@ -32,7 +34,14 @@ namespace tribodraw
     void draw_maps(const std::filesystem::path &folder);
     /// elements_final.csv with `major_strain,minor_strain`, flc.csv (`minor_strain,major_strain`) -> fld.
     void draw_forming_limits(const std::filesystem::path &folder);
-    /// The three above.
+    /// nodes_final.csv and elements_final.csv -> outline (of the part and the blank), thickness_cuts (along x, y and the
+    /// diagonal of the blank).
+    void draw_cuts(const std::filesystem::path &folder);
+    /// A field that is linear on each triangle along the line through the origin in the direction of the unit vector
+    /// @p direction, over the distance from the origin (negative on the other side).
+    plot::Series values_along(const plot::PlanMesh &mesh, const std::vector<double> &values,
+                              const std::array<double, 2> &direction);
+    /// The drawings above: history, maps, forming limits, cuts.
     void draw_forming(const std::filesystem::path &folder);
   } // namespace figures
 } // namespace tribodraw

@@ -154,9 +154,39 @@ TEST(Figures, forming_folder)
   figures::draw_all(folder.path());
   expect_figures(folder, { "force_travel", "draw_in", "mean_friction", "fld", "friction_coefficient_die",
                            "friction_coefficient_die_blank", "lubricant_pressure_die", "lubricant_pressure_die_blank",
-                           "contact_pressure_die_blank", "thickness", "thickness_blank" });
+                           "contact_pressure_die_blank", "thickness", "thickness_blank", "outline" });
   // No such column in the files, so no such figure.
   EXPECT_FALSE(std::filesystem::exists(folder / "friction_coefficient_punch.svg"));
+}
+
+TEST(Figures, a_linear_field_along_a_cut)
+{
+  // 1 + x + 2 y on a grid of 3 x 3 points from -1 to 1, cut at 30 degrees and along a line of the mesh.
+  plot::PlanMesh      mesh;
+  std::vector<double> values;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i)
+      {
+        mesh.points.push_back({ double(i), double(j) });
+        values.push_back(1 + i + 2 * j);
+      }
+  for (unsigned j = 0; j < 2; ++j)
+    for (unsigned i = 0; i < 2; ++i)
+      {
+        const unsigned a = 3 * j + i;
+        mesh.triangles.push_back({ a, a + 1, a + 4 });
+        mesh.triangles.push_back({ a, a + 4, a + 3 });
+      }
+  for (const double angle : { M_PI / 6, 0., M_PI / 4 })
+    {
+      const double c = std::cos(angle), s = std::sin(angle);
+      const auto   line = figures::values_along(mesh, values, { c, s });
+      ASSERT_GE(line.x.size(), 3u);
+      EXPECT_NEAR(line.x.front(), -1 / c, 1e-12); // the border of the square
+      EXPECT_NEAR(line.x.back(), 1 / c, 1e-12);
+      for (std::size_t k = 0; k < line.x.size(); ++k)
+        EXPECT_NEAR(line.y[k], 1 + line.x[k] * (c + 2 * s), 1e-12);
+    }
 }
 
 TEST(Figures, a_triangle_with_an_unknown_node_is_named)
