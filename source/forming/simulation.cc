@@ -24,6 +24,10 @@ namespace tribodraw
     /// is left away.
     constexpr double slowing_stiffness = 0.5, longest_relaxation = 1e4;
     constexpr double fine             = 0.01; // of the residual tolerance
+    /// A sheet that snaps while it is drawn has no equilibrium nearby. A viscosity makes the path through the snap: of this
+    /// stiffness in a first increment [MPa/mm], five times that if it is not enough, and left away when the increments
+    /// have grown by the second number. Its work stays below this share of all, or the run ends.
+    constexpr double snap_stiffness = 0.1, stiffest_snap = 2.5, regrowth = 8, slowing_work = 0.01;
     constexpr double smallest_closing = 1e-4;
     constexpr double complete         = 1 - 1e-9;
   } // namespace
@@ -34,6 +38,7 @@ namespace tribodraw
     , tools(t)
     , process(p)
     , settings(s)
+    , viscosity_given(s.viscosity)
     , material(m)
     , shell(b.mesh(), b.thickness, m, b.n_thickness_points, b.thickness_rule)
     , schedule(shell, blank, tools, process)
@@ -96,6 +101,15 @@ namespace tribodraw
     return outcome;
   }
 
+  bool
+  Simulation::Implementation::slow_down()
+  {
+    const double dt    = schedule.drawing(record.path, record.path + settings.first_increment).dt;
+    settings.viscosity = is_slowed() ? 5 * settings.viscosity : viscosity_given + snap_stiffness * dt;
+    next_increment     = settings.first_increment;
+    return settings.viscosity <= viscosity_given + stiffest_snap * dt;
+  }
+
   void
   Simulation::Implementation::draw()
   {
@@ -115,10 +129,15 @@ namespace tribodraw
             next_increment = 0.5 * step;
             if (next_increment >= settings.smallest_increment)
               continue;
-            if (!monitor || !monitor->limit_exceeded())
+            if (monitor && monitor->limit_exceeded())
+              {
+                monitor->without_equilibrium(outcome.reason);
+                break;
+              }
+            if (!slow_down())
               fail(*solver, outcome, Stage::drawing);
-            monitor->without_equilibrium(outcome.reason);
-            break;
+            log::info("   " + units::format(record.path, "mm") + ": the sheet snaps; it is slowed down by a viscosity.");
+            continue;
           }
         if (outcome.first_iterations <= few_iterations)
           next_increment = std::min(settings.largest_increment, growth * std::max(step, next_increment));
@@ -132,7 +151,16 @@ namespace tribodraw
           }
         report_step(progress);
         progress.update(record.path);
-        write_checkpoint();
+        if (!is_slowed())
+          write_checkpoint();
+        else if (next_increment >= std::min(regrowth * settings.first_increment, settings.largest_increment))
+          settings.viscosity = viscosity_given;
+        else if (record.stabilisation_work > slowing_work * record.external_work)
+          {
+            auto too_slow   = outcome;
+            too_slow.reason = "the viscosity that slows a snap down has taken more than 1 % of the work";
+            fail(*solver, too_slow, Stage::drawing);
+          }
       }
     progress.finish();
     friction->report_end();

@@ -17,6 +17,7 @@ namespace tribodraw
     ToolSet                                tools;
     Process                                process;
     SolverSettings                         settings;
+    const double                           viscosity_given; // more of it while the sheet snaps
     std::shared_ptr<const SheetMaterial>   material;
     Shell                                  shell;
     Schedule                               schedule;
@@ -52,6 +53,8 @@ namespace tribodraw
     // stages
     void close();
     void draw();
+    bool slow_down(); // false: it has been slowed down enough
+    bool is_slowed() const { return settings.viscosity > viscosity_given; }
     void unload();
     void   stop_holder();
     double holder_height() const; // of its face above that of the die [mm]
