@@ -1,7 +1,10 @@
 // On two ranks: films so large that they are solved with multigrid, the unknowns distributed.
+#include "hand_made_table.h"
+
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/lubrication/average_reynolds.h>
 #include <tribodraw/lubrication/bounded_system.h>
+#include <tribodraw/lubrication/lubricated_face.h>
 #include <tribodraw/shell/blank_mesh.h>
 
 #include <gtest/gtest.h>
@@ -50,6 +53,41 @@ TEST(LargeFilm, MultigridOnRanksEqualsTheDirectSolution)
   ASSERT_TRUE(result.converged);
   EXPECT_EQ(result.iterations, 1u);
   EXPECT_LT((result.x - exact).cwiseAbs().maxCoeff(), 1e-10 * exact.maxCoeff());
+}
+
+// The film of a blank is found on every rank as a whole. From the same contact it must be the same: 1e-10 of the greatest
+// pressure, volume and friction; they are equal to the last bit.
+TEST(FilmOnRanks, OnAGivenBlank)
+{
+  const BlankMesh     mesh = make_quarter_rectangle(60, 60, 20, 20);
+  LubricationSettings settings;
+  settings.supply          = LubricationSettings::Supply::film_transport;
+  settings.film_iterations = 30;
+  LubricatedFace                       face(mesh.nodes, mesh.triangles, mesh.on_outer_edge, { test::hand_made_table() },
+                                            std::make_shared<test::ConstantOil>(), std::vector<double>(mesh.nodes.size(), 2.2e-3), settings);
+  std::vector<LubricatedFace::Contact> contacts(mesh.nodes.size());
+  auto                                 positions = mesh.nodes;
+  for (unsigned step = 1; step <= 4; ++step)
+    {
+      for (std::size_t i = 0; i < contacts.size(); ++i)
+        {
+          const Eigen::Vector3d &x     = mesh.nodes[i];
+          positions[i]                 = (1 - 0.005 * step) * x; // drawn in
+          contacts[i].table            = x.norm() > 25 ? 0 : -1;
+          contacts[i].nominal_pressure = x.norm() > 25 ? 4 + 2 * std::sin(0.2 * x[0] + 0.1 * x[1] * step) : 0.;
+          contacts[i].eps_p            = 1e-3 * step;
+          contacts[i].sheet_velocity   = -0.3 * x;
+        }
+      face.update(positions, contacts, { 0.02, 1. });
+    }
+  ASSERT_GT(face.statistics().max_lubricant_pressure, 1.);
+  std::vector<double> own, sum;
+  for (const auto &node : face.nodes())
+    own.insert(own.end(), { node.lubricant_pressure, node.supplied_film, node.friction_coefficient });
+  sum = own;
+  parallel::sum(sum);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    EXPECT_NEAR(parallel::size() * own[i], sum[i], 1e-10 * std::abs(sum[i]));
 }
 
 // Square slider h1/h0 = 2, B/L = 1: W* = 0.0692765 (finite volumes 100^2 and 200^2, extrapolated).
