@@ -152,7 +152,7 @@ namespace tribodraw::plot
     const gnuplot::TemporaryFolder folder;
     std::ostringstream             script, curves;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << "set grid lc rgb '#c0c0c0' lw 0.5\n"
-           << "set key outside right center vertical Left reverse samplen 1.5 spacing 1.2 noautotitle\n";
+           << "set key below center horizontal Left reverse samplen 1.5 spacing 1.2 noautotitle\n";
     if (chart.logarithmic_x)
       script << "set logscale x\n";
     if (chart.logarithmic_y)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -109,8 +110,8 @@ a{color:var(--accent)}
       Figure{ "friction_coefficient_punch", "Friction coefficient on the punch side, deformed sheet from above." },
       Figure{ "lubricant_pressure_die", "Lubricant pressure on the die side, deformed sheet from above." },
       Figure{ "lubricant_pressure_punch", "Lubricant pressure on the punch side, deformed sheet from above." },
-      Figure{ "phi_p_die_blank",
-              "Pressure flow factor on the die side, half the trace of the tensor: what the asperities leave of the flow." },
+      Figure{ "phi_p_die_blank", "Pressure flow factor on the die side, half the trace of the tensor: what the "
+                                 "asperities leave of the flow." },
       Figure{ "phi_s_die_blank", "Shear flow factor on the die side, half the trace of the tensor." },
       Figure{ "contact_fraction_die_blank", "Real contact area on the die side." },
       Figure{ "major_strain_blank", "Major logarithmic strain of the middle surface, on the undeformed blank." },
@@ -198,16 +199,26 @@ a{color:var(--accent)}
              + escape(unit == "1" ? "" : unit) + "</td></tr>\n";
     }
 
-    /// Rows of a file `quantity,value,unit` (surface.csv, results.csv).
+    /// A name of a file's column as one reads it: `draw_in_x` -> "Draw in x".
     std::string
-    rows_of_list(const fs::path &file)
+    spoken(std::string name)
+    {
+      std::replace(name.begin(), name.end(), '_', ' ');
+      if (!name.empty())
+        name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+      return name;
+    }
+
+    /// Rows of a file `quantity,value,unit` (surface.csv, results.csv) but those that stand on the page already.
+    std::string
+    rows_of_list(const fs::path &file, const std::set<std::string> &shown = {})
     {
       std::string html;
       if (!fs::exists(file))
         return html;
       for (const auto &cells : read_csv(file).rows)
-        if (cells.size() >= 3)
-          html += row(cells[0], readable(cells[1]), cells[2]);
+        if (cells.size() >= 3 && shown.count(cells[0]) == 0)
+          html += row(spoken(cells[0]), readable(cells[1]), cells[2]);
       return html;
     }
 
@@ -281,8 +292,17 @@ a{color:var(--accent)}
     std::string
     key_figures(const fs::path &folder)
     {
-      const std::string rows
-          = rows_of_history(folder / "history.csv") + rows_of_list(folder / "results.csv")
+      const std::set<std::string> shown_from_history = fs::exists(folder / "history.csv")
+                                                           ? std::set<std::string>{ "punch_travel",
+                                                                                    "largest_punch_force",
+                                                                                    "draw_in_x",
+                                                                                    "draw_in_y",
+                                                                                    "draw_in_diagonal",
+                                                                                    "least_thickness_of_an_element",
+                                                                                    "largest_plastic_strain" }
+                                                           : std::set<std::string>{};
+      const std::string           rows
+          = rows_of_history(folder / "history.csv") + rows_of_list(folder / "results.csv", shown_from_history)
             + rows_of_list(folder / "surface.csv")
             + rows_of_ranges(folder / "flow_factors.csv", { { "h_avg_over_sq", "Mean gap / Sq", "" },
                                                             { "contact_fraction", "Real contact fraction", "" },
