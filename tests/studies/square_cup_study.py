@@ -3,8 +3,8 @@
 
 Runs prm/square_cup.prm as it is, without its fine zones (the reference), and that with one change at a time: element size,
 increments, contact (stiffness, thickness, elastic slip), thickness points, friction, yield locus and its reference direction. Writes FOLDER/study.csv and FOLDER/study.md with
-punch force, draw-in, work and friction work; a case that is already there is not run again. About 45 CPU s a case;
-`--finest` adds elements of half the size, about 8 minutes. Exit code 1 if a case does not reach 40 mm, or if halving the elements or the
+punch force, draw-in, work and friction work; a case that is already there is not run again. About 30 CPU s a case;
+`--finest` adds elements of half the size, about 4 minutes. Exit code 1 if a case does not reach 40 mm, or if halving the elements or the
 increments moves the largest punch force by more than 3 % or 2 %.
 """
 import argparse
