@@ -95,6 +95,7 @@ namespace tribodraw
     bool                     factored     = false;
     std::vector<std::size_t> known_start;
     std::vector<int>         known_column;
+    std::vector<bool>        known_trivial;
     std::vector<MUMPS_INT>   rows, columns;
     std::vector<std::size_t> positions; ///< of the entries handed to MUMPS; empty: all in order
     std::vector<double>      values;
@@ -129,6 +130,8 @@ namespace tribodraw
       icntl(mumps, 7)  = 4;  // PORD: on the tangent of a sheet, 2 to 3 times fewer operations than the automatic choice
                              // for symmetric matrices (AMF), and within 3 per cent of METIS
       icntl(mumps, 6)  = 0;  // no permutation by values: the analysis serves all matrices of the pattern
+      if (symmetry == Symmetry::unsymmetric)
+        icntl(mumps, 8) = 1; // by the diagonal, which balances displacements and rotations; the automatic choice iterates
       icntl(mumps, 10) = 0;  // no iterative refinement: the outer Newton iteration does that
       icntl(mumps, 13) = 1;  // no ScaLAPACK at the root: needed for the inertia and for null pivots
       icntl(mumps, 14) = 60; // spare memory in per cent, for delayed pivots
@@ -145,8 +148,9 @@ namespace tribodraw
     }
 
     void
-    set_pattern(const SparseMatrix &matrix)
+    set_pattern(const SparseMatrix &matrix, const std::vector<bool> &trivial)
     {
+      known_trivial = trivial;
       known_start  = matrix.row_start();
       known_column = matrix.columns();
       rows.clear();
@@ -155,12 +159,15 @@ namespace tribodraw
       const bool lower_only = symmetry == Symmetry::symmetric;
       for (int row = 0; row < matrix.size(); ++row)
         for (std::size_t k = known_start[row]; k < known_start[row + 1]; ++k)
-          if (!lower_only || known_column[k] <= row)
-            {
-              rows.push_back(row + 1);
-              columns.push_back(known_column[k] + 1);
-              positions.push_back(k);
-            }
+          {
+            const int  column  = known_column[k];
+            const bool cleared = column != row && !trivial.empty() && (trivial[row] || trivial[column]);
+            if (cleared || (lower_only && column > row))
+              continue;
+            rows.push_back(row + 1);
+            columns.push_back(column + 1);
+            positions.push_back(k);
+          }
       values.resize(positions.size());
       mumps.n = matrix.size();
       // A pivot below this share of the (scaled) matrix norm is round-off of a vanishing one: n eliminations leave some
@@ -205,15 +212,15 @@ namespace tribodraw
   }
 
   bool
-  DirectSolver::factor(const SparseMatrix &matrix)
+  DirectSolver::factor(const SparseMatrix &matrix, const std::vector<bool> &trivial)
   {
     Implementation &d = *data;
     d.factored        = false;
-    bool changed      = d.known_start != matrix.row_start() || d.known_column != matrix.columns();
+    bool changed      = d.known_start != matrix.row_start() || d.known_column != matrix.columns() || d.known_trivial != trivial;
     if (d.collective)
       changed = parallel::any(changed);
     if (changed)
-      d.set_pattern(matrix);
+      d.set_pattern(matrix, trivial);
     for (std::size_t k = 0; k < d.positions.size(); ++k)
       d.values[k] = matrix.values()[d.positions[k]];
 

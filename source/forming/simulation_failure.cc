@@ -83,17 +83,18 @@ namespace tribodraw
     std::set<std::string> where;
     for (const unsigned node : worst)
       where.insert(tool_at(node));
+    const std::string stiffness = units::format(contact.stiffness(), "MPa/mm");
     const bool one_tool = where.size() == 1 && *where.begin() != "no tool";
     if (outcome.reason.find("singular") != std::string::npos)
       say("Nothing holds some part of the blank, or it buckles: hold an edge ('Blank/Edges'), or give a small 'Solver/Stabilisation viscosity'.");
     else if (outcome.reason.find("material point") != std::string::npos)
       say("Single elements deform too much in one increment, typically where they are large against a radius of a tool: a finer 'Blank/Element size' or 'Blank/Fine zones' there.");
     else if (one_tool)
-      say("All of these nodes touch " + *where.begin() + ": nodes that touch and leave it in turn. A wider 'Solver/Contact transition', a smaller 'Solver/Contact stiffness', or elements that are smaller against its radii help.");
+      say("All of these nodes touch " + *where.begin() + ": nodes that touch and leave it in turn. A wider 'Solver/Contact transition', a 'Solver/Contact stiffness' below the " + stiffness + " in use, or elements that are smaller against its radii help.");
     else if (where.count("no tool") && where.size() == 1)
       say("None of these nodes touches a tool: the free sheet buckles or wrinkles. More holder force, or a small 'Solver/Stabilisation viscosity', which makes the path through the snap.");
     else
-      say("The nodes lie on several tools: the sheet changes from one to the other. A smaller 'Solver/Contact stiffness', a wider 'Solver/Contact transition' or a finer 'Blank/Element size' help.");
+      say("The nodes lie on several tools: the sheet changes from one to the other. A 'Solver/Contact stiffness' below the " + stiffness + " in use, a wider 'Solver/Contact transition' or a finer 'Blank/Element size' help.");
     std::string text = "\nWhat the figures say:";
     for (const std::string &cause : causes)
       text += "\n  - " + cause;

@@ -20,10 +20,10 @@ namespace tribodraw
   {}
 
   bool
-  TangentSolver::factor(const Contact::Tangent &tangent)
+  TangentSolver::factor(const Contact::Tangent &tangent, const std::vector<bool> &held)
   {
     const timing::Scope scope("forming/factorisation");
-    has_factors = direct.factor(tangent.sheet);
+    has_factors = direct.factor(tangent.sheet, held);
     if (!has_factors)
       return false;
     row = tangent.row;
@@ -141,7 +141,8 @@ namespace tribodraw
     tools_held                 = held.size() > n && held[n];
     if (tools_held != before)
       has_factors = false;
-    tangent.sheet.eliminate({held.begin(), held.begin() + static_cast<std::ptrdiff_t>(n)}, parallel::rank() == 0 ? 1. : 0.);
+    const std::vector<bool> held_sheet(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(n));
+    tangent.sheet.eliminate(held_sheet, parallel::rank() == 0 ? 1. : 0.);
     for (std::size_t i = 0; i < held.size(); ++i)
       if (held[i])
         {
@@ -151,7 +152,7 @@ namespace tribodraw
         }
     if (has_factors && similar && iterate(tangent, tolerance, b))
       return true;
-    if (!factor(tangent))
+    if (!factor(tangent, held_sheet))
       return false;
     b = precondition(b);
     return b.allFinite();

@@ -51,8 +51,9 @@ namespace tribodraw
     DirectSolver(const DirectSolver &)            = delete;
     DirectSolver &operator=(const DirectSolver &) = delete;
 
-    /// Factorise. Returns false if the matrix is singular to working precision.
-    bool factor(const SparseMatrix &matrix);
+    /// Factorise. Returns false if the matrix is singular to working precision. Unknowns marked in @p trivial have been
+    /// eliminated (SparseMatrix::eliminate): their cleared entries are left out of the pattern.
+    bool factor(const SparseMatrix &matrix, const std::vector<bool> &trivial = {});
     /// Solve with the last factors; the right-hand side (whole, same on each rank) is replaced by the solution (on each rank).
     void solve(Eigen::VectorXd &b);
     /// Number of negative pivots of the last factorisation (symmetric only).

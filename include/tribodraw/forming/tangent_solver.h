@@ -21,7 +21,7 @@ namespace tribodraw
     /// Returns false if the tangent is singular.
     bool solve(Contact::Tangent &tangent, const std::vector<bool> &held, double tolerance, bool similar, Eigen::VectorXd &b);
   private:
-    bool            factor(const Contact::Tangent &tangent);
+    bool            factor(const Contact::Tangent &tangent, const std::vector<bool> &held);
     Eigen::VectorXd multiply(const Contact::Tangent &tangent, const Eigen::VectorXd &x) const;
     Eigen::VectorXd precondition(const Eigen::VectorXd &b);
     bool            iterate(const Contact::Tangent &tangent, double tolerance, Eigen::VectorXd &b);
