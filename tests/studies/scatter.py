@@ -55,8 +55,7 @@ peak = max(row["punch_force_n"] for row in first)
 travels = [0.5 * i for i in range(2, 81)]
 worst = 0.
 for name, rows in runs.items():
-    # Between two increments the force is a straight line in either run: at 1 mm of increment the curve bends by less
-    # than 0.1 % of the peak from that, after the steep first millimetres.
+    # Between two increments the force is taken as a straight line in either run.
     differences = [(force_at(rows, t) - force_at(first, t)) / peak for t in travels]
     largest = max(map(abs, differences))
     worst = max(worst, largest)
