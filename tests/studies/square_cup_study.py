@@ -133,11 +133,14 @@ def main():
     cases = dict(CASES)
     if given.finest:
         cases[FINEST] = ["Blank/Element size = 1.0416667 mm"]
+    chosen = {name: settings for name, settings in cases.items() if not given.only or any(word in name for word in given.only)}
+    if not chosen:
+        arguments.error(f"no case has {given.only} in its name; cases: {'; '.join(cases)}")
     table = given.folder / "study.csv"
     rows = read(table) if table.exists() else []
     known, failed = {r["case"] for r in rows}, []
-    for name, settings in cases.items():
-        if name in known or (given.only and not any(word in name for word in given.only)):
+    for name, settings in chosen.items():
+        if name in known:
             continue
         row = run(given.program, given.folder, name, settings)
         if row is None:
