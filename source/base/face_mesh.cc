@@ -194,19 +194,11 @@ namespace tribodraw
         mesh.triangles.push_back({ v[a], v[b], v[c] });
         mesh.elements.push_back(face.element);
       };
-      const auto &x = mesh.nodes;
       if (n == 3)
-        add(0, 1, 2);
-      else if ((x[v[0]] - x[v[2]]).norm() <= (x[v[1]] - x[v[3]]).norm())
-        {
-          add(0, 1, 2);
-          add(0, 2, 3);
-        }
-      else
-        {
-          add(0, 1, 3);
-          add(1, 2, 3);
-        }
+        return add(0, 1, 2);
+      const auto &x = mesh.nodes;
+      for (const auto &[a, b, c] : cut_quadrangle({ x[v[0]], x[v[1]], x[v[2]], x[v[3]] }))
+        add(a, b, c);
     }
 
     void
@@ -241,6 +233,14 @@ namespace tribodraw
       return nullptr;
     }
   } // namespace
+
+  std::array<std::array<unsigned, 3>, 2>
+  cut_quadrangle(const std::array<Eigen::Vector3d, 4> &x)
+  {
+    if ((x[0] - x[2]).norm() <= (x[1] - x[3]).norm())
+      return { { { 0, 1, 2 }, { 0, 2, 3 } } };
+    return { { { 0, 1, 3 }, { 1, 2, 3 } } };
+  }
 
   const char *const face_mesh_formats = "Gmsh (.msh), Abaqus (.inp), LS-DYNA (.k, .key, .dyn)";
 

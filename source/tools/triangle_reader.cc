@@ -250,23 +250,16 @@ namespace tribodraw
             std::array<Vector3d, 4> n{};
             for (std::size_t k = 0; k + 1 < words.size(); ++k)
               v[k] = corner(k + 1, n[k]);
-            const auto add = [&](const int a, const int b, const int c) {
+            const auto add = [&](const unsigned a, const unsigned b, const unsigned c) {
               mesh.triangles.push_back({ v[a], v[b], v[c] });
               mesh.normals.push_back({ n[a], n[b], n[c] });
             };
             const auto &x = mesh.vertices;
             if (words.size() == 4)
               add(0, 1, 2);
-            else if ((x[v[0]] - x[v[2]]).norm() <= (x[v[1]] - x[v[3]]).norm())
-              {
-                add(0, 1, 2);
-                add(0, 2, 3);
-              }
             else
-              {
-                add(0, 1, 3);
-                add(1, 2, 3);
-              }
+              for (const auto &[a, b, c] : cut_quadrangle({ x[v[0]], x[v[1]], x[v[2]], x[v[3]] }))
+                add(a, b, c);
             check_number(mesh.triangles.size(), mesh.name);
           }
       if (!all_have_normals)

@@ -21,6 +21,9 @@ namespace tribodraw
     std::vector<std::int64_t>            elements;  ///< number that the file gives to the element of each triangle
   };
 
+  /// The two triangles, as numbers of corners, into which the shorter diagonal cuts the quadrangle with the corners @p x.
+  std::array<std::array<unsigned, 3>, 2> cut_quadrangle(const std::array<Eigen::Vector3d, 4> &x);
+
   /// The formats of read_face_mesh() for texts, with their extensions.
   extern const char *const face_mesh_formats;
 
