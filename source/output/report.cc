@@ -21,7 +21,7 @@ namespace tribodraw
 :root{color-scheme:light dark;--page:#fff;--text:#1b1f24;--soft:#59636e;--line:#d1d9e0;--card:#f6f8fa;--accent:#0b6ea8;--warn:#9a6700}
 @media(prefers-color-scheme:dark){:root{--page:#12161b;--text:#e6edf3;--soft:#9aa4ae;--line:#343b44;--card:#1a2027;--accent:#58b0e6;--warn:#d4a72c}}
 *{box-sizing:border-box}
-body{margin:0 auto;max-width:70rem;padding:1.5rem;background:var(--page);color:var(--text);font:16px/1.5 system-ui,Helvetica,Arial,sans-serif}
+body{margin:0 auto;max-width:70rem;padding:1.5rem;background:var(--page);color:var(--text);font:16px/1.5 system-ui,Helvetica,Arial,sans-serif;overflow-wrap:break-word}
 h1{margin:0 0 .25rem;font-size:1.8rem}h2{margin:2rem 0 .75rem;font-size:1.25rem;border-bottom:1px solid var(--line);padding-bottom:.25rem}
 .sub{color:var(--soft);margin:0}
 table{border-collapse:collapse;width:100%}td,th{padding:.3rem .75rem .3rem 0;border-bottom:1px solid var(--line);text-align:left;vertical-align:top}

@@ -20,6 +20,12 @@ window.addEventListener('load', () => {
     for (let p = e.parentElement; p; p = p.parentElement) if (['auto', 'scroll'].includes(getComputedStyle(p).overflowX)) return false;
     return e.getBoundingClientRect().right > innerWidth + 1;
   }).map(e => e.tagName);
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), range = document.createRange();
+  const scrolled = e => { for (; e; e = e.parentElement) if (['auto', 'scroll'].includes(getComputedStyle(e).overflowX)) return true; return false; };
+  for (let n = walker.nextNode(); n; n = walker.nextNode()) {
+    range.selectNodeContents(n);
+    if (range.getBoundingClientRect().right > innerWidth + 1 && !scrolled(n.parentElement)) wide.push(n.parentElement.tagName + ': ' + n.data.slice(0, 80));
+  }
   const a = luminance(style.color), b = luminance(style.backgroundColor);
   const figures = [...document.querySelectorAll('figure')].map(f => {
     const drawing = f.querySelector('svg, img'), box = drawing ? drawing.getBoundingClientRect() : {width: 0, height: 0};
@@ -112,9 +118,12 @@ def main():
         folder = pathlib.Path(name)
         reports = {r: pathlib.Path(r).resolve() for r in arguments.reports}
         if not reports:
+            # A long path stands in messages and must not widen the page.
+            source = folder / ('a_folder_with_a_long_name_' * 4)
+            source.symlink_to(os.path.abspath(arguments.source))
             for case, words in CASES.items():
                 output = folder / case
-                run = subprocess.run([arguments.program, os.path.join(arguments.source, words[0]), '--quiet', '--output', str(output), *words[1:]],
+                run = subprocess.run([arguments.program, str(source / words[0]), '--quiet', '--output', str(output), *words[1:]],
                                      capture_output=True, text=True)
                 if run.returncode != 0:
                     sys.exit('%s ended with %d:\n%s' % (case, run.returncode, run.stderr))
