@@ -1,8 +1,10 @@
 #include <tribodraw/base/errors.h>
+#include <tribodraw/base/own_process.h>
 #include <tribodraw/output/measured_table.h>
 
 #include <hdf5.h>
 
+#include <cstring>
 #include <filesystem>
 #include <regex>
 
@@ -10,7 +12,7 @@ namespace tribodraw::hdf5
 {
   namespace
   {
-    constexpr hsize_t largest_table = 50'000'000; // rows
+    constexpr hsize_t largest_table = 20'000'000; // numbers
 
     /// Closes an HDF5 identifier.
     class Handle
@@ -58,16 +60,12 @@ namespace tribodraw::hdf5
       }
 
       void
-      check_rows(const hsize_t n) const
-      {
-        if (n > largest_table)
-          fail("the table has " + std::to_string(n) + " rows, more than " + std::to_string(largest_table) + ".");
-      }
-
-      void
       read_column(MeasuredTable &table, const hid_t data, const hid_t memory_type, const std::string &name,
                   const hsize_t n) const
       {
+        if (n > largest_table / (table.columns.size() + 1))
+          fail("the table has " + std::to_string(table.columns.size() + 1) + " or more columns of " + std::to_string(n)
+               + " rows, more than " + std::to_string(largest_table) + " numbers.");
         MeasuredTable::Column column{ name, std::vector<double>(n) };
         if (H5Dread(data, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, column.values.data()) < 0)
           fail("column '" + name + "' cannot be read.");
@@ -78,7 +76,6 @@ namespace tribodraw::hdf5
       read_compound(const hid_t data) const
       {
         const hsize_t n = rows(data);
-        check_rows(n);
         const Handle  type(H5Dget_type(data), H5Tclose);
         MeasuredTable table;
         for (int m = 0; m < H5Tget_nmembers(type); ++m)
@@ -119,7 +116,6 @@ namespace tribodraw::hdf5
             const hsize_t n = rows(object);
             if (!is_number(type) || n == 0)
               continue;
-            check_rows(n);
             if (table.columns.empty())
               length = n;
             else if (n != length)
@@ -176,8 +172,6 @@ namespace tribodraw::hdf5
       MeasuredTable
       read() const
       {
-        if (!std::filesystem::is_regular_file(file))
-          throw InputError(describe_error("the file does not exist.", file));
         H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // our own messages only
         const Handle root(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
         if (root < 0)
@@ -197,6 +191,53 @@ namespace tribodraw::hdf5
         return table;
       }
     };
+
+    /// The source, and name and values of each column, each after their number.
+    std::string
+    packed(const MeasuredTable &table)
+    {
+      std::string text;
+      const auto  put = [&text](const void *data, const std::size_t n, const std::size_t size) {
+        text.append(reinterpret_cast<const char *>(&n), sizeof n).append(static_cast<const char *>(data), n * size);
+      };
+      put(table.source.data(), table.source.size(), 1);
+      for (const auto &column : table.columns)
+        {
+          put(column.name.data(), column.name.size(), 1);
+          put(column.values.data(), column.values.size(), sizeof(double));
+        }
+      return text;
+    }
+
+    /// Not even this text is trusted: a library that ran over its memory has written it.
+    MeasuredTable
+    unpacked(const std::string &text, const std::string &failure)
+    {
+      std::size_t at   = 0;
+      const auto  take = [&](void *target, const std::size_t size) {
+        if (size > text.size() - at)
+          throw InputError(failure);
+        std::memcpy(target, text.data() + at, size);
+        at += size;
+      };
+      const auto get = [&](auto &target) {
+        std::size_t n = 0;
+        take(&n, sizeof n);
+        if (n > (text.size() - at) / sizeof target[0])
+          throw InputError(failure);
+        target.resize(n);
+        take(target.data(), n * sizeof target[0]);
+      };
+      MeasuredTable table;
+      get(table.source);
+      while (at < text.size())
+        {
+          table.columns.emplace_back();
+          get(table.columns.back().name);
+          get(table.columns.back().values);
+        }
+      return table;
+    }
   } // namespace
 
   bool
@@ -210,6 +251,11 @@ namespace tribodraw::hdf5
   {
     const auto colon = path.rfind(':');
     const bool named = colon != std::string::npos && colon > path.rfind(".h");
-    return Reader{ path.substr(0, named ? colon : path.size()), named ? path.substr(colon + 1) : "" }.read();
+    const Reader reader{ path.substr(0, named ? colon : path.size()), named ? path.substr(colon + 1) : "" };
+    if (!std::filesystem::is_regular_file(reader.file))
+      throw InputError(describe_error("the file does not exist.", reader.file));
+    // The HDF5 library itself crashes on one of some 2000 damaged files: its checks are its own, and happen too late for us.
+    const std::string failure = describe_error("the HDF5 library broke down while it read this file, which is damaged.", reader.file);
+    return unpacked(in_own_process([&] { return packed(reader.read()); }, failure, {}), failure);
   }
 } // namespace tribodraw::hdf5

@@ -1,3 +1,4 @@
+#include "fuzz/hdf5_seeds.h"
 #include "fuzz/parsers.h"
 #include "fuzz/scratch_file.h"
 #include "unit/friction_table/sample_pair.h"
@@ -79,6 +80,8 @@ namespace
     return {
       { "parameters", true, read_parameters, shipped_parameter_files() },
       { "measured table", true, [](const std::string &text) { read_measured_table(ScratchFile(text).path().string()); }, { csv } },
+      { "hdf5 table", false, [](const std::string &content) { read_measured_table(ScratchFile(content, ".h5").path().string()); },
+        hdf5_seeds() },
       { "friction table", true, [](const std::string &text) { FrictionTable::read(ScratchFile(text).path()); },
         { build_friction_table(test::sample_pair(64, true)).to_json().dump() } },
       { "coefficient table", true, [](const std::string &text) { CoefficientTable::read(ScratchFile(text).path()); },

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Kill runs and resume them: kill_test.py PROGRAM FOLDER [--kills 100] [--flips 100] [--tasks NAME ...]
 
-Every task in small is run to its end once. Then runs are interrupted, and gone on with by --resume, until --kills of each task
-have been ended by SIGKILL: half of them at a random time, half of them at a random place in the writing of a file (in the middle
+Every task in small is run to its end twice, with the same bytes. Then runs are interrupted, and gone on with by --resume, until
+--kills of each task have been ended by SIGKILL: half of them at a random time, half of them at a random place in the writing of a file (in the middle
 of its content, before and after it gets its name); one interruption in six is a full disk instead (exit code 2, the file named).
 After one to four interruptions in a row a run is resumed to its end, and all its CSV, VTU, PVD and JSON files have to be the
 bytes of the uninterrupted run, with no other file left over. At the end a random byte of the newest checkpoint is flipped --flips
@@ -13,6 +13,7 @@ Exit code 0: all that held; a line a task says how often.
 """
 import argparse
 import filecmp
+import math
 import os
 import pathlib
 import random
@@ -34,7 +35,7 @@ TASKS = {  # name: (file, settings)
     "friction table": ("friction_table", TABLE),
     "strip draw": ("strip_draw", {**TABLE, "Friction table/Pressures": "1, 5, 20, 100 MPa", "Friction table/Strains": "0, 0.2, 0.5", "Strip draw/Sweep/Coefficient table": "false"}),
     "film": ("pocket_bearing", {}),
-    "sheet": ("shell_hinged_roof", {}),
+    "sheet": ("shell_hinged_roof", {"Sheet test/Shell/Surface/U elements": "12", "Sheet test/Shell/Surface/V elements": "12"}),
     "drawing": ("cross_die", {**DRAW, "Coupling/Friction": "constant", "Coupling/Constant friction coefficient": "0.1",
                               "Process/Unloading": "tools removed"}),
     "lubricated drawing": ("cross_die", {**DRAW, **SMALL_MAPS, "Friction table/Cut heights": "5"}),
@@ -57,10 +58,13 @@ class Case:
         self.folder = folder / name.replace(" ", "_")
         self.whole = self.folder / "whole"
         counter = self.folder / "events"
-        start = time.monotonic()
-        self.check(self.run(self.whole, environment=self.preload("count", 0, counter) if library else None), 0)
-        self.duration = time.monotonic() - start
+        self.duration = math.inf  # the shorter of two: other work on the machine must not put most kills behind the end
+        for root in (self.whole, self.folder / "again"):
+            start = time.monotonic()
+            self.check(self.run(root, environment=self.preload("count", 0, counter) if library else None), 0)
+            self.duration = min(self.duration, time.monotonic() - start)
         self.n_events = int(counter.read_text()) if library else 0
+        self.compare(root, "second run")
 
     def preload(self, how, at, counter=""):
         return {"LD_PRELOAD": str(self.library), "INTERRUPT_HOW": how, "INTERRUPT_AT": str(at), "INTERRUPT_COUNT": str(counter)}
