@@ -20,6 +20,7 @@ namespace tribodraw
     std::vector<std::array<int, 9>> positions; // of the entries of each triangle in the values of the matrix
     BoundedSystem                   system;
     BoundedSystem::Matrix           matrix;
+    std::vector<FilmCoefficient>    coefficient; // of the nodes; kept for its memory
 
     Implementation(const std::vector<Eigen::Vector3d> &reference, const std::vector<std::array<unsigned, 3>> &triangles,
                    const double floor)
@@ -57,32 +58,31 @@ namespace tribodraw
       system.analyse(matrix);
     }
 
-    std::vector<FilmCoefficient>
-    coefficients(const std::vector<NodeData> &nodes) const
+    void
+    set_coefficients(const std::vector<NodeData> &nodes)
     {
       if (nodes.size() != geometry.n_nodes())
         throw InputError(describe_error("Wrong number of nodal data for the film", "average Reynolds equation",
                                         std::to_string(nodes.size()), std::to_string(geometry.n_nodes())));
-      std::vector<FilmCoefficient> result;
-      result.reserve(nodes.size());
+      coefficient.clear();
+      coefficient.reserve(nodes.size());
       for (const NodeData &node : nodes)
         {
-          result.push_back(film_coefficient(node, phi_p_floor));
-          if (!result.back().has_film && !node.fixed)
+          coefficient.push_back(film_coefficient(node, phi_p_floor));
+          if (!coefficient.back().has_film && !node.fixed)
             throw InputError(describe_error(
                 "A node that carries lubricant pressure has no film or no viscosity",
-                "node " + std::to_string(result.size() - 1) + " of the average Reynolds equation",
+                "node " + std::to_string(coefficient.size() - 1) + " of the average Reynolds equation",
                 "film " + std::to_string(node.film) + " mm, viscosity " + std::to_string(node.viscosity) + " MPa s",
                 "above zero"));
         }
-      return result;
     }
 
     void
     assemble(const std::vector<NodeData> &nodes, Eigen::VectorXd &rhs)
     {
-      const std::vector<FilmCoefficient> coefficient = coefficients(nodes);
-      double                            *value       = matrix.valuePtr();
+      set_coefficients(nodes);
+      double *value = matrix.valuePtr();
       std::fill(value, value + matrix.nonZeros(), 0.);
       const std::size_t n_nodes = geometry.n_nodes();
       rhs                       = Eigen::VectorXd::Zero(n_nodes);

@@ -21,20 +21,7 @@ namespace tribodraw
     bool
     is_large(const Eigen::Index n)
     {
-      return n > large_system::direct_limit;
-    }
-
-    /// The vector of which each rank knows its own range.
-    void
-    gather(Eigen::VectorXd &x)
-    {
-      if (parallel::size() == 1)
-        return;
-      const auto [begin, end] = large_system::own_range(static_cast<int>(x.size()));
-      std::vector<double> whole(x.size(), 0.);
-      std::copy(x.data() + begin, x.data() + end, whole.begin() + begin);
-      parallel::sum(whole);
-      x = Eigen::Map<const Eigen::VectorXd>(whole.data(), x.size());
+      return n > LargeSystem::direct_limit;
     }
 
     double
@@ -74,7 +61,7 @@ namespace tribodraw
   std::pair<int, int>
   BoundedSystem::needed_range(const int n)
   {
-    return is_large(n) ? large_system::own_range(n) : std::pair<int, int>(0, n);
+    return is_large(n) ? LargeSystem::own_range(n) : std::pair<int, int>(0, n);
   }
 
   Eigen::VectorXd
@@ -87,53 +74,60 @@ namespace tribodraw
     for (int j = begin; j < end; ++j) // symmetric
       for (Matrix::InnerIterator entry(K, j); entry; ++entry)
         y[j] += entry.value() * x[entry.index()];
-    gather(y);
+    LargeSystem::gather(y);
     return y;
   }
+
+  BoundedSystem::BoundedSystem()  = default;
+  BoundedSystem::~BoundedSystem() = default;
 
   void
   BoundedSystem::analyse(const Matrix &pattern)
   {
-    if (!is_large(pattern.cols()))
-      factors.analyzePattern(pattern);
+    if (is_large(pattern.cols()))
+      {
+        large = std::make_unique<LargeSystem>(pattern);
+        return;
+      }
+    factors.analyzePattern(pattern);
     reduced = pattern;
   }
 
   bool
-  BoundedSystem::solve_linear(const Matrix &K, const Eigen::VectorXd &f, const std::vector<char> &set,
+  BoundedSystem::solve_direct(const Matrix &K, const std::vector<char> &held, const Eigen::VectorXd &rhs,
                               Eigen::VectorXd &x)
   {
-    Eigen::VectorXd held(x.size());
-    for (int i = 0; i < x.size(); ++i)
-      held[i] = set[i] == free ? 0. : x[i];
-    Eigen::VectorXd rhs = f - multiply(K, held);
-    // Unknowns that are held keep their diagonal only, so that the pattern (and its ordering) never changes.
+    // The pattern (and its ordering) never changes.
     const int    *start = K.outerIndexPtr(), *row = K.innerIndexPtr();
     const double *value  = K.valuePtr();
     double       *target = reduced.valuePtr();
     for (int j = 0; j < K.cols(); ++j)
-      if (set[j] == free)
-        for (int k = start[j]; k < start[j + 1]; ++k)
-          target[k] = set[row[k]] == free ? value[k] : 0.;
-      else
-        for (int k = start[j]; k < start[j + 1]; ++k)
-          {
-            target[k] = row[k] == j ? value[k] : 0.;
-            if (row[k] == j)
-              rhs[j] = value[k] * x[j];
-          }
+      for (int k = start[j]; k < start[j + 1]; ++k)
+        target[k] = row[k] != j && (held[j] || held[row[k]]) ? 0. : value[k];
+    factors.factorize(reduced);
+    if (factors.info() != Eigen::Success)
+      return false;
+    x = factors.solve(rhs);
+    return true;
+  }
 
-    Eigen::VectorXd solution = x;
-    bool            solved   = true;
-    if (is_large(x.size()))
-      solved = large_system::solve(reduced, rhs, tolerance, solution);
-    else
+  bool
+  BoundedSystem::solve_linear(const Matrix &K, const Eigen::VectorXd &diagonal, const Eigen::VectorXd &f,
+                              const std::vector<char> &set, Eigen::VectorXd &x)
+  {
+    // Unknowns that are held keep their diagonal only.
+    std::vector<char> held(set.size());
+    Eigen::VectorXd   known(x.size());
+    for (int i = 0; i < x.size(); ++i)
       {
-        factors.factorize(reduced);
-        solved = factors.info() == Eigen::Success;
-        if (solved)
-          solution = factors.solve(rhs);
+        held[i]  = set[i] != free;
+        known[i] = held[i] ? x[i] : 0.;
       }
+    Eigen::VectorXd rhs = f - multiply(K, known), solution = x;
+    for (int i = 0; i < x.size(); ++i)
+      if (held[i])
+        rhs[i] = diagonal[i] * x[i];
+    const bool solved = large ? large->solve(K, held, rhs, tolerance, solution) : solve_direct(K, held, rhs, solution);
     for (int i = 0; i < x.size(); ++i)
       if (set[i] == free) // the others keep their exact values
         x[i] = solution[i];
@@ -145,12 +139,11 @@ namespace tribodraw
                        Eigen::VectorXd x)
   {
     const int             n        = static_cast<int>(f.size());
-    const bool            large    = is_large(n);
     Eigen::VectorXd       diagonal = K.diagonal(), load = f;
     if (large)
       {
-        gather(diagonal);
-        gather(load);
+        LargeSystem::gather(diagonal);
+        LargeSystem::gather(load);
       }
     Result                result;
     std::vector<char>     wanted(n);
@@ -161,7 +154,7 @@ namespace tribodraw
         for (int i = 0; i < n; ++i)
           if (set[i] == at_zero || set[i] == at_upper)
             x[i] = set[i] == at_zero ? 0. : upper[i];
-        if (!solve_linear(K, load, set, x))
+        if (!solve_linear(K, diagonal, load, set, x))
           break;
         result.residual     = load - multiply(K, x);
         const double margin = (large ? iterative_set_tolerance * tolerance : set_tolerance) * pressure_scale(diagonal, load, x, set);

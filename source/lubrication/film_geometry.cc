@@ -3,9 +3,7 @@
 #include <tribodraw/base/errors.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/grid/tria.h>
 
 #include <Eigen/Dense>
 
@@ -14,13 +12,6 @@
 
 namespace tribodraw
 {
-  struct FilmGeometry::Mesh
-  {
-    dealii::Triangulation<2, 3> triangulation;
-    dealii::FE_SimplexP<2, 3>   fe{ 1 };
-    dealii::DoFHandler<2, 3>    dof_handler{ triangulation };
-  };
-
   namespace
   {
     void
@@ -60,43 +51,23 @@ namespace tribodraw
             describe_error("A triangle of the film mesh has collapsed", "nodes " + std::to_string(cell.node[0]) + ", "
                                                                             + std::to_string(cell.node[1]) + ", "
                                                                             + std::to_string(cell.node[2])));
-      cell.axes              = F * U.inverse();
-      cell.material_gradient = cell.axes.transpose() * cell.gradient;
+      cell.axes = F * U.inverse();
     }
-
   } // namespace
 
   FilmGeometry::FilmGeometry(const std::vector<Eigen::Vector3d>         &reference,
                              const std::vector<std::array<unsigned, 3>> &connectivity)
-      : mesh(std::make_unique<Mesh>()), n(reference.size())
+      : n(reference.size())
   {
     check_connectivity(connectivity, n);
-    std::vector<dealii::CellData<2>> cell_data;
-    for (const auto &t : connectivity)
-      {
-        dealii::CellData<2> cell(3);
-        for (unsigned v = 0; v < 3; ++v)
-          cell.vertices[v] = t[v];
-        cell_data.push_back(cell);
-      }
-    std::vector<dealii::Point<3>> vertices;
-    for (const auto &x : reference)
-      vertices.emplace_back(x[0], x[1], x[2]);
-    mesh->triangulation.create_triangulation(vertices, cell_data, dealii::SubCellData());
-    mesh->dof_handler.distribute_dofs(mesh->fe);
-
-    std::vector<dealii::types::global_dof_index> node_of_dof(mesh->dof_handler.n_dofs());
-    for (const auto &cell : mesh->dof_handler.active_cell_iterators())
+    triangles.reserve(connectivity.size());
+    for (const auto &nodes : connectivity)
       {
         Cell            c;
         Eigen::Matrix2d edges;
-        for (unsigned v = 0; v < 3; ++v)
-          {
-            c.node[v]                                 = cell->vertex_index(v);
-            node_of_dof[cell->vertex_dof_index(v, 0)] = c.node[v];
-          }
+        c.node = nodes;
         for (unsigned v = 0; v < 2; ++v)
-          edges.col(v) = (reference[c.node[v + 1]] - reference[c.node[0]]).head<2>();
+          edges.col(v) = (reference[nodes[v + 1]] - reference[nodes[0]]).head<2>();
         const double longest = edges.colwise().norm().maxCoeff();
         if (!(std::abs(edges.determinant()) > 1e-12 * longest * longest))
           throw InputError(describe_error("A triangle of the film mesh has no area in the plane of the blank",
@@ -104,20 +75,18 @@ namespace tribodraw
         c.reference_inverse = edges.inverse();
         triangles.push_back(c);
       }
-    mesh->dof_handler.renumber_dofs(node_of_dof);
 
-    const dealii::QGaussSimplex<2> rule(3);
+    const dealii::FE_SimplexP<2, 3> element(1);
+    const dealii::QGaussSimplex<2>  rule(3);
     for (unsigned q = 0; q < rule.size(); ++q)
       {
         QuadraturePoint point;
         point.weight = 2. * rule.weight(q); // the reference triangle has area 1/2
         for (unsigned i = 0; i < 3; ++i)
-          point.shape_value[i] = mesh->fe.shape_value(i, rule.point(q));
+          point.shape_value[i] = element.shape_value(i, rule.point(q));
         points.push_back(point);
       }
   }
-
-  FilmGeometry::~FilmGeometry() = default;
 
   void
   FilmGeometry::move_to(const std::vector<Eigen::Vector3d> &positions)
@@ -135,11 +104,13 @@ namespace tribodraw
         const Eigen::Vector3d  normal = (b - a).cross(c - a);
         const double           twice  = normal.norm();
         cell.area                     = 0.5 * twice;
-        const Eigen::Vector3d n       = normal / (twice * twice);
-        cell.gradient.col(0)          = n.cross(c - b);
-        cell.gradient.col(1)          = n.cross(a - c);
-        cell.gradient.col(2)          = n.cross(b - a);
         turn_axes(cell, positions);
+        const Eigen::Vector3d       n = normal / (twice * twice);
+        Eigen::Matrix<double, 3, 3> gradient;
+        gradient.col(0)        = n.cross(c - b);
+        gradient.col(1)        = n.cross(a - c);
+        gradient.col(2)        = n.cross(b - a);
+        cell.material_gradient = cell.axes.transpose() * gradient;
       }
     last_positions = positions;
   }

@@ -4,13 +4,13 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <memory>
 #include <vector>
 
 namespace tribodraw
 {
-  /// The deal.II side of the film: triangulation of the blank, linear elements, and what the weak form needs of them
-  /// for given positions of the nodes. Unknowns are numbered as the nodes.
+  /// Linear elements on the triangles of the blank, and what the weak form needs of them for given positions of the
+  /// nodes. Unknowns are numbered as the nodes. Shape functions and quadrature are those of deal.II; its triangulation
+  /// would be built at ten times the cost of a solution and then only be asked for what is given here.
   class FilmGeometry
   {
   public:
@@ -20,9 +20,9 @@ namespace tribodraw
       std::array<unsigned, 3>     node;
       Eigen::Matrix2d             reference_inverse; // of the edges in the undeformed blank
       double                      area = 0;
-      Eigen::Matrix<double, 3, 2> axes;
-      Eigen::Matrix<double, 3, 3> gradient;          // of the shape functions in space, one column each
-      Eigen::Matrix<double, 2, 3> material_gradient; // the same along axes
+      Eigen::Matrix<double, 3, 2> axes = Eigen::Matrix<double, 3, 2>::Zero();
+      Eigen::Matrix<double, 2, 3> material_gradient
+          = Eigen::Matrix<double, 2, 3>::Zero(); // of the shape functions along axes, one column each
     };
 
     /// A point of the quadrature that is exact for degree 5 (the product h^3 PhiP / eta of linear functions).
@@ -33,7 +33,6 @@ namespace tribodraw
     };
 
     FilmGeometry(const std::vector<Eigen::Vector3d> &reference, const std::vector<std::array<unsigned, 3>> &triangles);
-    ~FilmGeometry();
 
     void            move_to(const std::vector<Eigen::Vector3d> &positions);
     Eigen::VectorXd nodal_area() const; ///< a third of the triangles around
@@ -57,8 +56,6 @@ namespace tribodraw
     }
 
   private:
-    struct Mesh;
-    std::unique_ptr<Mesh>        mesh;
     std::size_t                  n;
     std::vector<Cell>            triangles;
     std::vector<QuadraturePoint> points;

@@ -50,6 +50,44 @@ namespace tribodraw
       mean.sq_phi_s /= n;
       return mean;
     }
+
+    /// All nodes have a film.
+    FilmTerms
+    integrals(const FilmGeometry::Cell &cell, const std::vector<FilmGeometry::QuadraturePoint> &quadrature,
+              const std::array<const FilmCoefficient *, 3> &node)
+    {
+      std::array<Eigen::Vector2d, 3> velocity, slip;
+      for (unsigned i = 0; i < 3; ++i)
+        {
+          velocity[i] = cell.axes.transpose() * node[i]->mean_velocity;
+          slip[i]     = cell.axes.transpose() * node[i]->half_slip;
+        }
+      const auto &a = *node[0], &b = *node[1], &c = *node[2];
+      FilmTerms   terms;
+      // Of degree 5.
+      double xx = 0, yy = 0, xy = 0;
+      for (const auto &[weight, N] : quadrature)
+        {
+          const double h = N[0] * a.film + N[1] * b.film + N[2] * c.film;
+          const double f = N[0] * a.fluidity + N[1] * b.fluidity + N[2] * c.fluidity;
+          const double m = weight * h * h * h * f;
+          xx += m * (N[0] * a.phi_p[0] + N[1] * b.phi_p[0] + N[2] * c.phi_p[0]);
+          yy += m * (N[0] * a.phi_p[1] + N[1] * b.phi_p[1] + N[2] * c.phi_p[1]);
+          xy += m * (N[0] * a.phi_p[2] + N[1] * b.phi_p[2] + N[2] * c.phi_p[2]);
+        }
+      terms.mobility << xx, xy, xy, yy;
+      terms.mobility *= cell.area;
+      // Of degree 2: the integral of N_i N_j is A/12, of N_i N_i twice as much.
+      const double twelfth = cell.area / 12;
+      terms.flux           = (a.film + b.film + c.film) * (velocity[0] + velocity[1] + velocity[2])
+                   + (a.sq_phi_s + b.sq_phi_s + c.sq_phi_s) * (slip[0] + slip[1] + slip[2]);
+      for (unsigned i = 0; i < 3; ++i)
+        terms.flux += node[i]->film * velocity[i] + node[i]->sq_phi_s * slip[i];
+      terms.flux *= twelfth;
+      const Eigen::Vector3d squeeze(a.squeeze, b.squeeze, c.squeeze);
+      terms.squeeze = twelfth * (squeeze + Eigen::Vector3d::Constant(squeeze.sum()));
+      return terms;
+    }
   } // namespace
 
   FilmCoefficient
@@ -75,37 +113,11 @@ namespace tribodraw
   film_terms(const FilmGeometry::Cell &cell, const std::vector<FilmGeometry::QuadraturePoint> &quadrature,
              const std::array<const FilmCoefficient *, 3> &nodes)
   {
-    std::array<FilmCoefficient, 3>         replaced;
-    std::array<const FilmCoefficient *, 3> node = nodes;
-    std::array<Eigen::Vector2d, 3>         velocity, slip;
+    if (nodes[0]->has_film && nodes[1]->has_film && nodes[2]->has_film)
+      return integrals(cell, quadrature, nodes);
+    std::array<FilmCoefficient, 3> node;
     for (unsigned i = 0; i < 3; ++i)
-      {
-        if (!nodes[i]->has_film)
-          {
-            replaced[i] = filled(*nodes[i], nodes);
-            node[i]     = &replaced[i];
-          }
-        velocity[i] = cell.axes.transpose() * node[i]->mean_velocity;
-        slip[i]     = cell.axes.transpose() * node[i]->half_slip;
-      }
-    const auto     &a = *node[0], &b = *node[1], &c = *node[2];
-    FilmTerms       terms;
-    Eigen::Vector3d mobility = Eigen::Vector3d::Zero();
-    for (const auto &point : quadrature)
-      {
-        const auto           &N = point.shape_value;
-        const double          w = point.weight * cell.area;
-        const double          h = N[0] * a.film + N[1] * b.film + N[2] * c.film;
-        const double          f = N[0] * a.fluidity + N[1] * b.fluidity + N[2] * c.fluidity;
-        const double          s = N[0] * a.squeeze + N[1] * b.squeeze + N[2] * c.squeeze;
-        const Eigen::Vector2d v = N[0] * velocity[0] + N[1] * velocity[1] + N[2] * velocity[2];
-        const Eigen::Vector2d u = N[0] * slip[0] + N[1] * slip[1] + N[2] * slip[2];
-        mobility += (w * h * h * h * f) * (N[0] * a.phi_p + N[1] * b.phi_p + N[2] * c.phi_p);
-        const Eigen::Matrix2d sheared = N[0] * a.sq_phi_s + N[1] * b.sq_phi_s + N[2] * c.sq_phi_s;
-        terms.flux += w * (h * v + sheared * u);
-        terms.squeeze += (w * s) * Eigen::Vector3d(N[0], N[1], N[2]);
-      }
-    terms.mobility << mobility[0], mobility[2], mobility[2], mobility[1];
-    return terms;
+      node[i] = nodes[i]->has_film ? *nodes[i] : filled(*nodes[i], nodes);
+    return integrals(cell, quadrature, { &node[0], &node[1], &node[2] });
   }
 } // namespace tribodraw

@@ -4,11 +4,14 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace tribodraw
 {
+  class LargeSystem;
+
   /// K x = f with 0 <= x <= upper and some x prescribed, K symmetric and positive definite on the free unknowns:
   ///   0 < x_i < upper_i : r_i = 0,   x_i = 0 : r_i <= 0,   x_i = upper_i : r_i >= 0,   r = f - K x.
   /// Primal-dual active set in the form of block principal pivoting (Judice and Pires, Computers & Operations Research
@@ -18,6 +21,9 @@ namespace tribodraw
   {
   public:
     using Matrix = Eigen::SparseMatrix<double>;
+
+    BoundedSystem();
+    ~BoundedSystem();
 
     /// Unknowns whose columns of K and entries of f this rank must know: all of a small system; of one that is solved
     /// with multigrid (`large_system.h`) its own range.
@@ -51,9 +57,12 @@ namespace tribodraw
   private:
     Eigen::SimplicialLDLT<Matrix> factors;
     Matrix                        reduced;
+    std::unique_ptr<LargeSystem>  large; // instead of these
 
     Eigen::VectorXd multiply(const Matrix &K, const Eigen::VectorXd &x) const;
-    bool solve_linear(const Matrix &K, const Eigen::VectorXd &f, const std::vector<char> &set, Eigen::VectorXd &x);
+    bool            solve_direct(const Matrix &K, const std::vector<char> &held, const Eigen::VectorXd &rhs, Eigen::VectorXd &x);
+    bool            solve_linear(const Matrix &K, const Eigen::VectorXd &diagonal, const Eigen::VectorXd &f,
+                                 const std::vector<char> &set, Eigen::VectorXd &x);
   };
 } // namespace tribodraw
 
