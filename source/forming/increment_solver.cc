@@ -11,8 +11,8 @@ namespace tribodraw
 {
   namespace
   {
-    /// Largest displacement and director rotation of one Newton correction: a fully plastic section is so soft that the
-    /// first tangents ask for much more.
+    /// Largest displacement (between tools: a free sheet may swing) and director rotation of one Newton correction: a fully
+    /// plastic section is so soft that the first tangents ask for much more.
     constexpr double largest_step = 2.0 /* mm */, largest_rotation = 0.5 /* rad */;
     /// Far from the solution (unbalanced / contact forces above this) the tangent is stabilised.
     constexpr double far_from_solution = 0.1;
@@ -180,12 +180,12 @@ namespace tribodraw
   }
 
   void
-  IncrementSolver::limit(Eigen::VectorXd &du) const
+  IncrementSolver::limit(const Load &load, Eigen::VectorXd &du) const
   {
     double rotation = 0;
     for (unsigned node = 0; node < shell.n_nodes(); ++node)
       rotation = std::max(rotation, std::hypot(du[shell.dof(node, 3)], du[shell.dof(node, 4)]));
-    const double excess = std::max(largest_displacement(du) / largest_step, rotation / largest_rotation);
+    const double excess = std::max(rotation / largest_rotation, load.contact ? largest_displacement(du) / largest_step : 0.);
     if (excess > 1)
       du /= excess;
   }
@@ -277,7 +277,7 @@ namespace tribodraw
     if (travel > 0 && largest > 5 * travel)
       du *= 5 * travel / largest;
     else if (travel == 0)
-      limit(du);
+      limit(load, du);
     du += given;
     return true;
   }
@@ -392,7 +392,7 @@ namespace tribodraw
         if (!solver.solve(K, held, linear_tolerance, norm < similar_below * last_norm && !options.tension_only, du))
           return give_up("the tangent is singular");
         last_norm = norm;
-        limit(du);
+        limit(load, du);
         const bool far        = norm > far_from_solution * force_scale();
         stabilise(options, far);
         if (!line_search(load, options, du, norm))

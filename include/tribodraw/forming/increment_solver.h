@@ -94,7 +94,7 @@ namespace tribodraw
     void   account(const Load &load, const Eigen::VectorXd &loads_before, const Eigen::VectorXd &reaction_before, Outcome &outcome) const;
     Eigen::VectorXd increment() const;
     void   apply(const Eigen::VectorXd &du, double factor);
-    void   limit(Eigen::VectorXd &du) const;
+    void   limit(const Load &load, Eigen::VectorXd &du) const;
     double largest_displacement(const Eigen::VectorXd &du) const;
     void   add_travels();
     bool   line_search(const Load &load, const Shell::AssemblyOptions &options, const Eigen::VectorXd &du, double &norm);
