@@ -266,8 +266,8 @@ namespace tribodraw
   FrictionTable::write(const std::filesystem::path &json_file, const std::filesystem::path &csv_file) const
   {
     check(json_file.string());
-    write_file(json_file, to_json().dump(1, ' ') + "\n");
     if (!csv_file.empty())
       monotone_look_up().save(csv_file);
+    write_file(json_file, to_json().dump(1, ' ') + "\n");
   }
 } // namespace tribodraw

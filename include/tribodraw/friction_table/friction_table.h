@@ -97,7 +97,8 @@ namespace tribodraw
     /// Throws InputError naming the first inconsistency (axis, size, sign, finiteness).
     void check(const std::string &name) const;
 
-    /// JSON (self-describing) and CSV with the columns of the design.
+    /// JSON (self-describing) and CSV with the columns of the design. The JSON file, by which a kept table is found, comes
+    /// last: where it stands, the other one does too.
     void                 write(const std::filesystem::path &json_file, const std::filesystem::path &csv_file) const;
     static FrictionTable read(const std::filesystem::path &json_file);
     nlohmann::json       to_json() const;

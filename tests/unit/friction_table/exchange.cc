@@ -162,6 +162,14 @@ TEST(FrictionTableExchange, RefusesInconsistentContent)
   expect_refused([](json &j) { j.erase("provenance"); }, "provenance", "lacks");
 }
 
+// A run that finds the JSON file takes the table for finished: it must not stand before the CSV file does, which here cannot be written.
+TEST(FrictionTableExchange, JsonIsWrittenLast)
+{
+  const Folder folder;
+  EXPECT_THROW(sample_table().write(folder.path / "t.json", folder.path / "missing" / "t.csv"), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "t.json"));
+}
+
 // A table that is not consistent is never written.
 TEST(FrictionTableExchange, DoesNotWriteNonsense)
 {
