@@ -235,7 +235,7 @@ namespace tribodraw
   }
 
   PrescribedFilm::Result
-  PrescribedFilm::solve() const
+  PrescribedFilm::solve(const Watcher &watcher) const
   {
     Result result;
     make_mesh(result);
@@ -248,16 +248,18 @@ namespace tribodraw
       solver.transport = std::make_unique<FilmTransport>(result.nodes, result.triangles, 0.);
     else
       solver.reynolds = std::make_unique<AverageReynolds>(result.nodes, result.triangles, 0.);
-    solve_film(solver, result);
+    Pass pass;
+    pass.n_gaps = fall_load > 0 ? n_fall + 2 : 1;
+    solve_film(solver, result, pass, watcher);
     find_load(result);
     find_friction(result);
     if (fall_load > 0)
-      result.fall_time = find_fall_time(solver, result);
+      result.fall_time = find_fall_time(solver, result, watcher);
     return result;
   }
 
   void
-  PrescribedFilm::solve_film(const Solver &solver, Result &result) const
+  PrescribedFilm::solve_film(const Solver &solver, Result &result, Pass pass, const Watcher &watcher) const
   {
     const std::size_t       n     = result.nodes.size();
     const double            shift = pressure_shift(result);
@@ -266,7 +268,8 @@ namespace tribodraw
     FilmTransport::Result   transported;
     result.pressure.assign(n, ambient);
     result.fill.assign(n, 1.);
-    double change = 1;
+    pass.least_gap = *std::min_element(result.film.begin(), result.film.end());
+    double change  = 1;
     for (unsigned iteration = 1; iteration <= max_viscosity_iterations && change > viscosity_tolerance; ++iteration)
       {
         bool piezoviscous = false;
@@ -307,6 +310,12 @@ namespace tribodraw
           }
         result.viscosity_iterations = iteration;
         change                      = piezoviscous && largest > 0 ? largest_change / largest : 0.;
+        pass.number                 = iteration;
+        pass.active_set_iterations  = film.iterations;
+        pass.change                 = change;
+        pass.settled                = change <= viscosity_tolerance;
+        if (watcher)
+          watcher(pass, result);
       }
     if (change > viscosity_tolerance)
       throw ConvergenceError(describe_error(
@@ -346,7 +355,7 @@ namespace tribodraw
   /// t = int (load per approach speed)/(load) dh from the final to the present least gap, by the variable 1/h^2 in which
   /// the integrand of parallel surfaces is constant (Simpson's rule).
   double
-  PrescribedFilm::find_fall_time(const Solver &solver, Result film) const
+  PrescribedFilm::find_fall_time(const Solver &solver, Result film, const Watcher &watcher) const
   {
     const std::vector<double> start = film.film;
     const double              high = *std::min_element(start.begin(), start.end()), low = final_gap;
@@ -363,7 +372,10 @@ namespace tribodraw
         const double u = from + (to - from) * k / n_fall, h = 1. / std::sqrt(u);
         for (std::size_t i = 0; i < start.size(); ++i)
           film.film[i] = start[i] - (high - h);
-        falling.solve_film(solver, film);
+        Pass pass;
+        pass.gap    = k + 1;
+        pass.n_gaps = n_fall + 2;
+        falling.solve_film(solver, film, pass, watcher);
         falling.find_load(film);
         const double weight = k == 0 || k == n_fall ? 1. : k % 2 == 1 ? 4. : 2.;
         time += weight * film.load / fall_load * 0.5 * std::pow(u, -1.5);

@@ -1,6 +1,7 @@
 #include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/output/forming_output.h>
+#include <tribodraw/output/paraview.h>
 
 #include <cmath>
 #include <cstdio>
@@ -51,11 +52,29 @@ namespace tribodraw
     }
 
     std::string
-    step_name(const unsigned step)
+    step_name(const std::string &what, const unsigned step)
     {
-      char name[40];
-      std::snprintf(name, sizeof(name), "solution_%04u.vtu", step);
-      return name;
+      char number[20];
+      std::snprintf(number, sizeof(number), "_%04u.vtu", step);
+      return what + number;
+    }
+
+    /// How ParaView shows the sheet: what is new in it, and both faces.
+    std::vector<ParaviewView>
+    views(const SurfaceFields &fields)
+    {
+      using From             = ParaviewView::From;
+      const bool  lubricated = fields.node_scalars.count("lubricant_pressure_die") > 0;
+      const bool  limited    = fields.cell_scalars.count("flc_margin") > 0;
+      const char *pressure   = lubricated ? "lubricant_pressure_" : "contact_pressure_";
+      const char *name       = lubricated ? "Lubricant pressure" : "Contact pressure";
+      return { { "Thinning, part of the first thickness", "thinning", From::inside_above },
+               { "Friction coefficient, punch side", "friction_coefficient_punch", From::inside_above },
+               { std::string(name) + ", punch side / MPa", std::string(pressure) + "punch", From::inside_above },
+               limited ? ParaviewView{ "Major strain over its forming limit", "flc_margin", From::outside_below }
+                       : ParaviewView{ "Equivalent plastic strain", "eps_p", From::outside_below },
+               { "Friction coefficient, die side", "friction_coefficient_die", From::outside_below },
+               { std::string(name) + ", die side / MPa", std::string(pressure) + "die", From::outside_below } };
     }
 
     const char *
@@ -165,6 +184,9 @@ namespace tribodraw
     fields.triangles                 = shell.mesh().triangles;
     fields.node_scalars["thickness"] = shell.node_thickness();
     fields.units["thickness"]        = "mm";
+    auto &thinning                   = fields.node_scalars["thinning"];
+    for (const double thickness : shell.node_thickness())
+      thinning.push_back(1 - thickness / simulation.blank().thickness);
     auto &displacement               = fields.node_vectors["displacement"];
     for (unsigned i = 0; i < shell.n_nodes(); ++i)
       displacement.push_back(fields.points[i] - shell.mesh().nodes[i]);
@@ -220,24 +242,45 @@ namespace tribodraw
     SurfaceFields fields = collect(simulation);
     fields.time          = r.time;
     fields.cycle         = step;
-    if (step == 0)
-      remove_steps_from(0); // of an earlier run in the same folder
-    const std::string name = step_name(step++);
     if (parallel::rank() == 0)
-      write_vtu(folder / name, fields);
-    collection.add(r.time, name);
+      {
+        if (step == 0)
+          {
+            remove_steps_from(0); // of an earlier run in the same folder
+            write_paraview_state(folder, views(fields));
+          }
+        SurfaceFields rigid = tools.at_present(simulation);
+        rigid.time          = fields.time;
+        rigid.cycle         = fields.cycle;
+        write_vtu(folder / step_name("solution", step), fields);
+        write_vtu(folder / step_name("tools", step), rigid);
+      }
+    ++step;
     times.push_back(r.time);
-    if (parallel::rank() == 0)
-      collection.save(folder / "solution.pvd");
+    write_collections();
     last_written = r.time;
+  }
+
+  void
+  FieldWriter::write_collections() const
+  {
+    if (parallel::rank() != 0)
+      return;
+    for (const std::string what : { "solution", "tools" })
+      {
+        PvdCollection collection;
+        for (unsigned k = 0; k < step; ++k)
+          collection.add(times[k], step_name(what, k));
+        collection.save(folder / (what + ".pvd"));
+      }
   }
 
   void
   FieldWriter::remove_steps_from(const unsigned first) const
   {
     std::error_code ignored;
-    if (parallel::rank() == 0)
-      for (unsigned k = first; std::filesystem::remove(folder / step_name(k), ignored); ++k)
+    for (const std::string what : { "solution", "tools" })
+      for (unsigned k = first; std::filesystem::remove(folder / step_name(what, k), ignored); ++k)
         {
         }
   }
@@ -365,12 +408,9 @@ namespace tribodraw
       (i < n_nodes ? previous_position : velocity)
           .emplace_back(values[4 + 3 * i], values[5 + 3 * i], values[6 + 3 * i]);
     // Steps after the checkpoint are written again, or belong to a run that ended elsewhere.
-    times      = archive.numbers("output/times", step);
-    collection = {};
-    for (unsigned k = 0; k < step; ++k)
-      collection.add(times[k], step_name(k));
-    remove_steps_from(step);
+    times = archive.numbers("output/times", step);
     if (parallel::rank() == 0)
-      collection.save(folder / "solution.pvd");
+      remove_steps_from(step);
+    write_collections();
   }
 } // namespace tribodraw

@@ -2,6 +2,7 @@
 // mode, in which the reader of a shape stands in its own example for the missing file.
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/tools/tool_geometry.h>
+#include <tribodraw/tools/triangulation.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -75,6 +76,25 @@ TEST_P(ToolShape, DistanceHasNoJumps)
       ASSERT_LE(std::abs(tool->distance(x).distance - tool->distance(y).distance), (x - y).norm() + 1e-11)
           << x.transpose() << " and " << y.transpose();
     }
+}
+
+TEST_P(ToolShape, CanBeDrawn)
+{
+  const PlacedTool          placed{ tool.get(), Vector3d::Zero(), false };
+  const Eigen::AlignedBox3d box(Vector3d(-150, -150, -60), Vector3d(150, 150, 60));
+  const double              cell = std::cbrt(box.volume() / 40000);
+  const TriangleMesh        mesh = triangulate(placed, box);
+  EXPECT_FALSE(mesh.triangles.empty());
+  unsigned away = 0;
+  for (const Vector3d &x : mesh.vertices)
+    {
+      EXPECT_LE(std::abs(tool->distance(x).distance), cell);
+      away += std::abs(tool->distance(x).distance) > 1e-3 * cell;
+    }
+  EXPECT_LE(away, mesh.vertices.size() / 20); // at creases and ends of surfaces
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const unsigned corner : mesh.triangles[t])
+      ASSERT_LT(corner, mesh.vertices.size());
 }
 
 TEST_P(ToolShape, NormalIsAUnitVectorEverywhere)

@@ -14,7 +14,7 @@ arguments = argparse.ArgumentParser()
 for name in ('program', 'source'):
     arguments.add_argument('--' + name, required=True)
 given = arguments.parse_args()
-FILES = ('history.csv', 'energy.csv', 'nodes_final.csv', 'elements_final.csv', 'solution.pvd')
+FILES = ('history.csv', 'energy.csv', 'nodes_final.csv', 'elements_final.csv', 'solution.pvd', 'tools.pvd', 'view.py')
 
 
 def run(output, changes=(), options=()):

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,11 +56,24 @@ namespace tribodraw
       std::vector<bool>                    open;           ///< nodes of ambient pressure
     };
 
+    /// One solution for the pressure at one gap. There are several where the viscosity depends on the pressure.
+    struct Pass
+    {
+      unsigned gap = 0, n_gaps = 1;               ///< the gap given is number 0, those of the fall follow
+      double   least_gap             = 0;         ///< [mm]
+      unsigned number                = 1;         ///< of the pass, counted from 1
+      unsigned active_set_iterations = 0;
+      double   change                = 0;         ///< of the pressure since the pass before, by the largest pressure
+      bool     settled               = false;     ///< the last one at this gap
+    };
+    /// Sees every pass and the film as it is then, without load and friction.
+    using Watcher = std::function<void(const Pass &, const Result &)>;
+
     /// Reads the sections `Gap`, `Process` and `Lubricant`; call at the top level of the file.
     explicit PrescribedFilm(Parameters &parameters);
 
     /// Throws ConvergenceError if active set or viscosity do not settle.
-    Result solve() const;
+    Result solve(const Watcher &watcher = {}) const;
     /// Rows of results.csv: `quantity,value,unit`.
     CsvTable    table(const Result &result) const;
     std::string describe() const;
@@ -84,12 +98,12 @@ namespace tribodraw
     void                make_mesh(Result &result) const;
     void                make_rectangle(Result &result) const;
     std::vector<FilmTransport::NodeData> make_data(const Result &result) const;
-    void                                 solve_film(const Solver &solver, Result &result) const;
+    void                                 solve_film(const Solver &solver, Result &result, Pass pass, const Watcher &watcher) const;
     double                               pressure_shift(const Result &result) const;
     void                                 find_flow(Result &result, const std::vector<double> &outflow) const;
     void                                 find_load(Result &result) const;
     void                                 find_friction(Result &result) const;
-    double                               find_fall_time(const Solver &solver, Result film) const;
+    double                               find_fall_time(const Solver &solver, Result film, const Watcher &watcher) const;
   };
 } // namespace tribodraw
 

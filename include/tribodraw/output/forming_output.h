@@ -4,6 +4,7 @@
 #include <tribodraw/base/csv.h>
 #include <tribodraw/forming/simulation.h>
 #include <tribodraw/material/forming_limit.h>
+#include <tribodraw/output/tool_surfaces.h>
 #include <tribodraw/output/vtu.h>
 
 #include <filesystem>
@@ -30,8 +31,8 @@ namespace tribodraw
     CsvTable              history, energy, tools;
   };
 
-  /// solution.pvd with VTU steps every so much punch travel, and at the end nodes_final.csv, elements_final.csv and
-  /// flc.csv, from which the figures are drawn.
+  /// solution.pvd with VTU steps every so much punch travel, tools.pvd with the tools at the same times and view.py, which
+  /// opens both in ParaView; at the end nodes_final.csv, elements_final.csv and flc.csv, from which the figures are drawn.
   class FieldWriter : public Observer
   {
   public:
@@ -48,6 +49,7 @@ namespace tribodraw
   private:
     SurfaceFields collect(const Simulation &simulation) const;
     void          write_step(const Simulation &simulation, const IncrementRecord &record);
+    void          write_collections() const;
     void          write_final(const Simulation &simulation) const;
     void          remove_steps_from(unsigned first) const;
 
@@ -55,7 +57,7 @@ namespace tribodraw
     double                                   travel_between, next_travel = 0;
     unsigned                                 step = 0;
     std::shared_ptr<const FormingLimitCurve> limit;
-    PvdCollection                            collection;
+    ToolSurfaces                             tools;
     std::vector<Eigen::Vector3d>             previous_position, velocity, in_the_tools; // the last: before the unloading
     double                                   previous_time = 0, last_written = -1;
     std::vector<double>                      times; // of the steps written

@@ -4,6 +4,7 @@
 #include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/units.h>
+#include <tribodraw/output/paraview.h>
 #include <tribodraw/output/plot.h>
 #include <tribodraw/output/vtu.h>
 
@@ -374,6 +375,11 @@ namespace tribodraw
           const std::string number = std::to_string(n_fields);
           const std::string name
               = "solution-" + std::string(5 - std::min<std::size_t>(5, number.size()), '0') + number + ".vtu";
+          if (n_fields == 0)
+            write_paraview_state(context.output_folder,
+                                 { { "Displacement / mm", "displacement" },
+                                   { "Thickness / mm", "thickness" },
+                                   { "Largest equivalent plastic strain", "largest_plastic_strain" } });
           write_vtu(context.file(name), fields);
           collection.add(n_fields++, name);
           collection.save(context.file("solution.pvd"));

@@ -6,7 +6,10 @@
 #include <tribodraw/base/timing.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/lubrication/prescribed_film.h>
+#include <tribodraw/output/paraview.h>
 #include <tribodraw/output/vtu.h>
+
+#include <cstdio>
 
 namespace tribodraw
 {
@@ -29,18 +32,40 @@ namespace tribodraw
       {
         const auto result = [&] {
           const timing::Scope scope("lubrication/film");
-          return film.solve();
+          Progress            progress("Film", 1.);
+          const auto          result_of_run
+              = film.solve([&](const PrescribedFilm::Pass &pass, const PrescribedFilm::Result &state) {
+                  report(pass, progress);
+                  // Before the gaps of the fall are solved: an interrupted run can be opened.
+                  if (pass.gap == 0 && pass.settled && parallel::rank() == 0)
+                    write_fields(state, context);
+                });
+          progress.finish();
+          return result_of_run;
         }();
         log::info("Load " + units::format(result.load, "N") + ", greatest pressure "
                   + units::format(result.max_pressure, "MPa") + " at x = " + units::format(result.x_max, "mm"));
         if (parallel::rank() != 0)
           return;
         film.table(result).save(context.file("results.csv"));
-        write_fields(result, context);
         write_mesh(result, context);
       }
 
     private:
+      /// One line a solution.
+      static void
+      report(const PrescribedFilm::Pass &pass, Progress &progress)
+      {
+        const double done = (pass.gap + (pass.settled ? 1. : 0.)) / pass.n_gaps;
+        char         text[200];
+        std::snprintf(text, sizeof text,
+                      "%5.1f %%  gap %u of %u, least %.4g um  pass %u  active set its %u  change %.0e  ", 100 * done,
+                      pass.gap + 1, pass.n_gaps, pass.least_gap / units::factor("um"), pass.number,
+                      pass.active_set_iterations, pass.change);
+        log::step(text + progress.times(done));
+        progress.update(done);
+      }
+
       static std::vector<double>
       film_in_um(const PrescribedFilm::Result &result)
       {
@@ -61,6 +86,11 @@ namespace tribodraw
                                 { "film_fraction", result.fill } };
         fields.units        = { { "lubricant_pressure", "MPa" }, { "film_thickness", "um" } };
         write_vtu(context.file("solution-00000.vtu"), fields);
+        write_paraview_state(
+            context.output_folder,
+            { { "Lubricant pressure / MPa", "lubricant_pressure", ParaviewView::From::above },
+              { "Film thickness / µm", "film_thickness", ParaviewView::From::above },
+              { "Share of the gap filled with lubricant", "film_fraction", ParaviewView::From::above } });
         PvdCollection steps;
         steps.add(0, "solution-00000.vtu");
         steps.save(context.file("solution.pvd"));
@@ -71,8 +101,8 @@ namespace tribodraw
       write_mesh(const PrescribedFilm::Result &result, const RunContext &context)
       {
         const auto film = film_in_um(result);
-        CsvTable   nodes({ "node", "x_mm", "y_mm", "z_mm", "lubricant_pressure_mpa", "film_thickness_um",
-                         "film_fraction" });
+        CsvTable   nodes(
+              { "node", "x_mm", "y_mm", "z_mm", "lubricant_pressure_mpa", "film_thickness_um", "film_fraction" });
         for (std::size_t i = 0; i < result.nodes.size(); ++i)
           nodes.add_row({ static_cast<long>(i), result.nodes[i][0], result.nodes[i][1], result.nodes[i][2],
                           result.pressure[i], film[i], result.fill[i] });

@@ -23,7 +23,7 @@ namespace
     std::string width = "1 mm", step = "5 mm";
 
     PrescribedFilm::Result
-    solve() const
+    solve(const PrescribedFilm::Watcher &watcher = {}) const
     {
       const std::string shape
           = "set Inlet film = " + inlet + "\nset Outlet film = 2 um\nset Length = 10 mm\nset Width = " + width + "\n";
@@ -40,7 +40,7 @@ namespace
       parameters.choice("Task", { "film" }, "");
       const PrescribedFilm film(parameters);
       parameters.finish();
-      return film.solve();
+      return film.solve(watcher);
     }
   };
 } // namespace
@@ -125,6 +125,30 @@ TEST(PrescribedFilm, PressureRaisesTheViscosity)
   const auto r = c.solve();
   EXPECT_NEAR(r.max_pressure, -std::log(1 - 0.06 * 1.2) / 0.06, 5e-4);
   EXPECT_GT(r.viscosity_iterations, 3u);
+}
+
+TEST(PrescribedFilm, EveryPassIsSeen)
+{
+  Case c;
+  c.along     = 20;
+  c.lubricant = "set Viscosity law = Barus\nsubsection Barus\nset Pressure coefficient = 60 1/GPa\nend\n";
+  std::vector<PrescribedFilm::Pass> passes;
+  std::vector<double>               last;
+  const auto                        r = c.solve([&](const auto &pass, const auto &state) {
+    passes.push_back(pass);
+    last = state.pressure;
+  });
+  ASSERT_EQ(passes.size(), r.viscosity_iterations);
+  ASSERT_GT(passes.size(), 2u);
+  for (std::size_t i = 0; i < passes.size(); ++i)
+    {
+      EXPECT_EQ(passes[i].number, i + 1);
+      EXPECT_EQ(passes[i].n_gaps, 1u);
+      EXPECT_EQ(passes[i].settled, i + 1 == passes.size());
+      EXPECT_NEAR(passes[i].least_gap, 2e-3, 1e-12); // the outlet film
+      EXPECT_TRUE(i == 0 || passes[i].change < passes[i - 1].change); // a contraction
+    }
+  EXPECT_EQ(last, r.pressure); // what an interrupted run shows is the result
 }
 
 TEST(PrescribedFilm, NegativePressureIsNotCarried)
