@@ -80,7 +80,7 @@ namespace tribodraw
     std::array<double, 4> sum{}, squares{};
     for (std::size_t number = 0; number < 4; ++number)
       {
-        const HeightMap quarter = quarter_of(sheet, number), counter = tool.z.empty() ? tool : quarter_of(tool, number);
+        const HeightMap quarter = quarter_of(sheet, number), counter = tool.z.empty() ? HeightMap() : quarter_of(tool, number);
         const double    cut
             = cut_heights_for_separations(quarter, counter, sq_reference, { result.h_avg / sq_reference }).front();
         const auto factors

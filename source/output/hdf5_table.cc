@@ -2,6 +2,7 @@
 #include <tribodraw/base/own_process.h>
 #include <tribodraw/output/measured_table.h>
 
+#define H5_USE_110_API // later releases of the library keep these functions under this name
 #include <hdf5.h>
 
 #include <cstring>

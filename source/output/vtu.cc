@@ -90,8 +90,13 @@ namespace tribodraw
     for (unsigned t = 0; t < fields.triangles.size(); ++t)
       patches.push_back(make_patch(fields, t, static_cast<unsigned>(names.size())));
 
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+    using Compression = dealii::DataOutBase::CompressionLevel;
+#else
+    using Compression = dealii::DataOutBase::VtkFlags;
+#endif
     dealii::DataOutBase::VtkFlags flags(fields.time, fields.cycle, /*print_date_and_time=*/false,
-                                        dealii::DataOutBase::VtkFlags::best_compression,
+                                        Compression::best_compression,
                                         /*write_higher_order_cells=*/false, fields.units);
     std::ostringstream            out;
     dealii::DataOutBase::write_vtu(patches, names, vectors, flags, out);
