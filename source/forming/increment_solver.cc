@@ -23,6 +23,9 @@ namespace tribodraw
     /// between the flat tools).
     constexpr double surely_converged = 0.1;
 
+    /// Measure of unbalanced forces where nothing touches or loads the sheet [N]: a ten thousandth of it is still above round-off.
+    constexpr double least_force = 1e-3;
+
     void
     stabilise(Shell::AssemblyOptions &options, const bool far)
     {
@@ -167,7 +170,7 @@ namespace tribodraw
   double
   IncrementSolver::force_scale() const
   {
-    return std::max(contact.force_scale() + load_scale + support_scale, 1e-6);
+    return std::max(contact.force_scale() + load_scale + support_scale, least_force);
   }
 
   double

@@ -151,16 +151,16 @@ namespace tribodraw
           }
         report_step(progress);
         progress.update(record.path);
-        if (!is_slowed())
-          write_checkpoint();
-        else if (next_increment >= std::min(regrowth * settings.first_increment, settings.largest_increment))
-          settings.viscosity = viscosity_given;
-        else if (record.stabilisation_work > slowing_work * record.external_work)
+        if (is_slowed() && viscosity_given == 0 && record.stabilisation_work > slowing_work * record.external_work)
           {
             auto too_slow   = outcome;
             too_slow.reason = "the viscosity that slows a snap down has taken more than 1 % of the work";
             fail(*solver, too_slow, Stage::drawing);
           }
+        if (!is_slowed())
+          write_checkpoint();
+        else if (next_increment >= std::min(regrowth * settings.first_increment, settings.largest_increment))
+          settings.viscosity = viscosity_given;
       }
     progress.finish();
     friction->report_end();
