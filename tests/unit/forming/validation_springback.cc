@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 using namespace tribodraw;
 using namespace tribodraw::test;
 

@@ -1,6 +1,8 @@
 // Contact, friction and increments against closed forms and an independent integration: strips on drums.
 #include "validation.h"
 
+#include <algorithm>
+
 using namespace tribodraw;
 using namespace tribodraw::test;
 using Eigen::VectorXd;
