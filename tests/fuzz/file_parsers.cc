@@ -6,6 +6,7 @@
 #include <tribodraw/base/csv.h>
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
+#include <tribodraw/base/parameters.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/surface/surface_reader.h>
 #include <tribodraw/surface/surface_writer.h>
@@ -99,6 +100,20 @@ namespace
       data.numbers(column);
   }
 
+  /// The format of parameter files, without the program's entries.
+  void
+  read_parameter_text(const std::string &text)
+  {
+    Parameters parameters = Parameters::from_text(text);
+    parameters.text("Task", "Anything.");
+    {
+      const auto scope = parameters.section("Blank");
+      parameters.quantity("Thickness", "mm", Range::positive(), "A length.");
+      parameters.quantity_list("Lengths", "mm", Range::positive(), "Lengths.");
+    }
+    parameters.finish();
+  }
+
   std::vector<FuzzedParser>
   make_parsers()
   {
@@ -110,6 +125,8 @@ namespace
       { "checkpoint body", false, read_archive_body, { sample_archive().substr(archive_head) } },
       { "surface", false, read_surface_content, sample_surfaces() },
       { "tool surface", false, [](const std::string &text) { read_triangles(ScratchFile(text, ".stl").path(), 1.); }, sample_triangles() },
+      { "parameter text", true, read_parameter_text,
+        { "set Task = forming # what\nsubsection Blank\n  set Thickness = 0.82 mm\n  set Lengths = 1, 2 mm\nend\n" } },
       { "tool object", true, [](const std::string &text) { read_triangles(ScratchFile(text, ".obj").path(), 1.); },
         { "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 1\nf 1 2 3\nf 4/1 3/2 -3/3\n" } },
     };

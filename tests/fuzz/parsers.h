@@ -17,6 +17,9 @@ struct FuzzedParser
 /// Those of files that need the modules base, surface and tools only.
 const std::vector<FuzzedParser> &file_parsers();
 
+/// Those of tables and meshes, which need a few source files of other modules.
+const std::vector<FuzzedParser> &table_parsers();
+
 /// All parsers of the program. (test_surface_formats and test_tools damage files of every surface and tool format in addition.)
 const std::vector<FuzzedParser> &fuzzed_parsers();
 
