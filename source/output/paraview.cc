@@ -12,7 +12,10 @@ namespace tribodraw
 import math, os, sys
 from paraview.simple import *
 
-folder = os.path.dirname(os.path.abspath(__file__))
+try:
+    folder = os.path.dirname(os.path.abspath(__file__))
+except NameError:  # `paraview --script=view.py` does not say where the script is
+    folder = os.getcwd()
 views = [  # title of the colour bar, field, direction to the camera
 )";
 
