@@ -236,19 +236,16 @@ namespace tribodraw
                                     "Say which belong together: --columns 'stroke_mm=punch_travel_mm,force_kn=punch_force_n'."));
   }
 
-  namespace
+  std::string
+  spoken_column(const std::string &column)
   {
-    std::string
-    axis_label(const std::string &column)
-    {
-      const Name  name = take_apart(column);
-      std::string text = name.stem;
-      std::replace(text.begin(), text.end(), '_', ' ');
-      if (!text.empty())
-        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-      return name.unit.empty() ? text : text + " / " + name.unit;
-    }
-  } // namespace
+    const Name  name = take_apart(column);
+    std::string text = name.stem;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (!text.empty())
+      text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return name.unit.empty() ? text : text + " / " + name.unit;
+  }
 
   void
   write_comparison(const std::vector<CurveComparison> &curves, const fs::path &folder)
@@ -259,7 +256,7 @@ namespace tribodraw
       {
         table.add_row({ c.quantity, c.abscissa, static_cast<long>(c.points), c.from, c.to, c.rms, c.relative_rms(), c.mean, c.largest, c.largest_at,
                         c.measured_peak, c.computed_peak, c.measured_area, c.computed_area });
-        plot::LineChart chart{ "Measured and computed", axis_label(c.abscissa), axis_label(c.quantity) };
+        plot::LineChart chart{ "Measured and computed", spoken_column(c.abscissa), spoken_column(c.quantity) };
         chart.series = { { "measured", c.measured_x, c.measured_y, plot::Series::Style::points },
                          { "computed", c.computed_x, c.computed_y, plot::Series::Style::line } };
         plot::draw(chart, folder / ("compare_" + take_apart(c.quantity).stem));

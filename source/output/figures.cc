@@ -61,41 +61,57 @@ namespace tribodraw::figures
     plot::draw(chart("Shear flow factor", "ΦS ", "phi_s_"), folder / "phi_s");
   }
 
+  namespace
+  {
+    /// @param of which tool, empty for the first or only one
+    void
+    draw_one_table(const std::filesystem::path &file, const std::string &of)
+    {
+      const std::string tool     = of.empty() ? "" : ", " + of;
+      const std::string suffix   = of.empty() ? "" : "_of_" + of;
+      const auto        stem     = [&](const char *name) { return file.parent_path() / (name + suffix); };
+      const CsvData     data     = read_csv(file);
+      const auto        pressure = data.numbers("p_solid_mpa"), strain = data.numbers("eps_p");
+      const auto        family = [&](const std::string &title, const std::string &label, const std::string &column) {
+        plot::LineChart c{ title + tool, "Solid pressure / MPa", label };
+        c.logarithmic_x   = true;
+        c.y_from_zero     = true;
+        const auto values = data.numbers(column);
+        for (const double level : choose_levels(strain, 6))
+          {
+            plot::Series series{ "strain " + short_number(level), {}, {}, Style::line };
+            for (std::size_t i = 0; i < values.size(); ++i)
+              if (strain[i] == level)
+                {
+                  series.x.push_back(pressure[i]);
+                  series.y.push_back(values[i]);
+                }
+            c.series.push_back(series);
+          }
+        return c;
+      };
+      plot::draw(family("Real contact fraction", "Contact fraction", "contact_fraction"),
+                 stem("table_contact_fraction"));
+      plot::draw(family("Mean film in the gap", "Film thickness / µm", "h_avg_um"), stem("table_film_thickness"));
+      plot::draw(family("Shear stress of the solid contacts", "Shear stress / MPa", "tau_solid_mpa"),
+                 stem("table_solid_shear"));
+      plot::draw(family("Boundary friction coefficient", "Friction coefficient", "mu_boundary"),
+                 stem("table_friction_coefficient"));
+      plot::draw(family("Pressure flow factor ΦP xx", "Flow factor", "phi_p_xx"), stem("table_phi_p"));
+      plot::draw(family("Shear flow factor ΦS xx", "Flow factor", "phi_s_xx"), stem("table_phi_s"));
+    }
+  } // namespace
+
   void
   draw_friction_table(const std::filesystem::path &folder)
   {
-    const auto file = folder / "friction_table.csv";
-    if (!std::filesystem::exists(file))
-      return;
-    const CsvData data     = read_csv(file);
-    const auto    pressure = data.numbers("p_solid_mpa"), strain = data.numbers("eps_p");
-    const auto    family = [&](const std::string &title, const std::string &label, const std::string &column) {
-      plot::LineChart c{ title, "Solid pressure / MPa", label };
-      c.logarithmic_x   = true;
-      c.y_from_zero     = true;
-      const auto values = data.numbers(column);
-      for (const double level : choose_levels(strain, 6))
-        {
-          plot::Series series{ "strain " + short_number(level), {}, {}, Style::line };
-          for (std::size_t i = 0; i < values.size(); ++i)
-            if (strain[i] == level)
-              {
-                series.x.push_back(pressure[i]);
-                series.y.push_back(values[i]);
-              }
-          c.series.push_back(series);
-        }
-      return c;
-    };
-    plot::draw(family("Real contact fraction", "Contact fraction", "contact_fraction"),
-               folder / "table_contact_fraction");
-    plot::draw(family("Mean film in the gap", "Film thickness / µm", "h_avg_um"), folder / "table_film_thickness");
-    plot::draw(family("Shear stress of the solid contacts", "Shear stress / MPa", "tau_solid_mpa"),
-               folder / "table_solid_shear");
-    plot::draw(family("Boundary friction coefficient", "Friction coefficient", "mu_boundary"),
-               folder / "table_friction_coefficient");
-    plot::draw(family("Pressure flow factor ΦP xx", "Flow factor", "phi_p_xx"), folder / "table_phi_p");
-    plot::draw(family("Shear flow factor ΦS xx", "Flow factor", "phi_s_xx"), folder / "table_phi_s");
+    if (const auto file = folder / "friction_table.csv"; std::filesystem::exists(file))
+      draw_one_table(file, "");
+    const std::string start = "friction_table_of_";
+    for (const auto &entry : std::filesystem::directory_iterator(folder))
+      if (const std::string name = entry.path().stem().string();
+          entry.path().extension() == ".csv" && name.rfind(start, 0) == 0)
+        draw_one_table(entry.path(), name.substr(start.size()));
   }
 
   void

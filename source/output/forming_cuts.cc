@@ -1,4 +1,4 @@
-// Lines through the drawn part: thickness along cuts, and the outline against the blank.
+// Lines through the drawn part: thinning along cuts, and the outline against the blank.
 #include <tribodraw/base/csv.h>
 #include <tribodraw/output/figures.h>
 #include <tribodraw/output/plot.h>
@@ -96,18 +96,20 @@ namespace tribodraw::figures
     add_outline(outline, "drawn part", part, plot::Series::Style::line);
     plot::draw(outline, folder / "outline");
 
-    if (!nodes.has("thickness_mm"))
+    if (!nodes.has("thinning"))
       return;
-    const auto      thickness = nodes.numbers("thickness_mm");
-    plot::LineChart cuts{ "Thickness along cuts through the blank",
-                          "Distance from the axis of the punch on the blank / mm", "Thickness / mm" };
+    auto thinning = nodes.numbers("thinning");
+    for (double &t : thinning)
+      t *= 100;
+    plot::LineChart cuts{ "Thinning along cuts through the blank", "Distance from the axis on the blank / mm",
+                          "Thinning / %" };
     const auto      add = [&](const char *label, const Point &direction) {
-      cuts.series.push_back(values_along(blank, thickness, direction));
+      cuts.series.push_back(values_along(blank, thinning, direction));
       cuts.series.back().label = label;
     };
     add("along x (rolling)", { 1, 0 });
     add("along y", { 0, 1 });
     add("diagonal", { std::sqrt(0.5), std::sqrt(0.5) });
-    plot::draw(cuts, folder / "thickness_cuts");
+    plot::draw(cuts, folder / "thinning_cuts");
   }
 } // namespace tribodraw::figures

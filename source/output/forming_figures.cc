@@ -28,6 +28,7 @@ namespace tribodraw::figures
       { "lubricant_pressure_punch", "Lubricant pressure, punch side", "Pressure", true },
       { "lubricant_pressure", "Lubricant pressure", "Pressure", true },
       { "film_thickness", "Film thickness", "Film thickness", true },
+      { "film_fraction", "Filled part of the gap", "Lubricant / gap", true },
       { "contact_pressure_die", "Contact pressure, die side", "Pressure", false },
       { "contact_pressure_punch", "Contact pressure, punch side", "Pressure", false },
       { "film_thickness_die", "Film thickness, die side", "Film thickness", false },
@@ -35,15 +36,22 @@ namespace tribodraw::figures
       { "contact_fraction_die", "Real contact area, die side", "Share of the area", false },
       { "phi_p_die", "Pressure flow factor, die side", "Pressure flow factor", false },
       { "phi_s_die", "Shear flow factor, die side", "Shear flow factor", false },
-      { "lubrication_regime_die", "Lubrication regime, die side", "1 boundary, 2 mixed, 3 full film", false },
-      { "lubrication_regime_punch", "Lubrication regime, punch side", "1 boundary, 2 mixed, 3 full film", false },
+      { "lubrication_regime_die", "Lubrication regime, die side", "", false },
+      { "lubrication_regime_punch", "Lubrication regime, punch side", "", false },
     };
+    /// Not a quantity, but one of three classes.
+    bool
+    is_regime(const MapInfo &info)
+    {
+      return std::string(info.name).rfind("lubrication_regime", 0) == 0;
+    }
+
     constexpr MapInfo cell_maps[] = {
       { "thickness", "Sheet thickness", "Thickness", true },
       { "eps_p", "Equivalent plastic strain", "Plastic strain", false },
       { "major_strain", "Major strain", "Logarithmic strain", false },
       { "minor_strain", "Minor strain", "Logarithmic strain", false },
-      { "flc_margin", "Margin to the forming limit", "Margin", false },
+      { "flc_margin", "Nearness to the forming limit", "Major strain / limit", false },
     };
 
     /// What a column name may end in, and how that is written.
@@ -126,13 +134,15 @@ namespace tribodraw::figures
         chart.y_label     = "y / mm";
         chart.value_label = info.quantity + unit;
         chart.raster      = rasterise(mesh);
-        chart.lines       = mesh.outline();
+        if (is_regime(info))
+          chart.classes = { "boundary", "mixed", "full film" };
+        chart.lines = mesh.outline();
         plot::draw(chart, folder / name);
       };
       if (state.moved)
-        draw_on(state.undeformed, ", on the undeformed blank", std::string(info.name) + "_blank");
+        draw_on(state.undeformed, ", on the blank", std::string(info.name) + "_blank");
       if (!state.moved || info.also_deformed)
-        draw_on(state.deformed, state.moved ? ", seen from above" : "", info.name);
+        draw_on(state.deformed, state.moved ? ", from above" : "", info.name);
     }
 
     /// A curve of history.csv over punch travel; nothing if the column is missing.
@@ -192,8 +202,9 @@ namespace tribodraw::figures
       if (const auto column = find_column(state.nodes, info.name))
         {
           const auto values = state.nodes.numbers(column->name);
-          draw_map(state, info, column->unit, folder,
-                   [&](const plot::PlanMesh &mesh) { return plot::rasterise_nodal(mesh, values); });
+          draw_map(state, info, column->unit, folder, [&](const plot::PlanMesh &mesh) {
+            return is_regime(info) ? plot::rasterise_nearest(mesh, values) : plot::rasterise_nodal(mesh, values);
+          });
         }
     for (const MapInfo &info : cell_maps)
       if (const auto column = find_column(state.elements, info.name))

@@ -31,7 +31,7 @@ namespace tribodraw::plot
                                                     { 0xfd, 0xe7, 0x25 } } };
     constexpr Colour                 no_value = { 0xb8, 0xb8, 0xb8 };
 
-    constexpr unsigned width = 720; ///< of figures, in points
+    constexpr unsigned width = 480; ///< of figures, in points: texts of 14 points stay readable on a phone
 
     /// Okabe and Ito's colours for lines, told apart by the colour-blind and visible on white and on dark pages.
     constexpr std::array<const char *, 7> line_colours
@@ -70,6 +70,25 @@ namespace tribodraw::plot
     {
       return "set title " + gnuplot::quote(title) + "\nset xlabel " + gnuplot::quote(x) + "\nset ylabel "
              + gnuplot::quote(y) + "\nset tics nomirror out\nset border 3\n";
+    }
+
+    /// Steps of colour with the names of the classes; nothing if the values are a quantity.
+    std::string
+    class_palette(const std::vector<std::string> &classes)
+    {
+      if (classes.empty())
+        return "";
+      std::ostringstream colours, names;
+      for (std::size_t i = 0; i < classes.size(); ++i)
+        {
+          const Colour c
+              = colour_of(classes.size() > 1 ? static_cast<double>(i) / static_cast<double>(classes.size() - 1) : 0.);
+          char hex[8];
+          std::snprintf(hex, sizeof hex, "#%02x%02x%02x", c.red, c.green, c.blue);
+          colours << (i == 0 ? "" : ", ") << i << " '" << hex << "', " << i + 1 << " '" << hex << "'";
+          names << (i == 0 ? "" : ", ") << gnuplot::quote(classes[i]) << ' ' << i + 1;
+        }
+      return "set palette defined (" + colours.str() + ")\nset cbtics (" + names.str() + ")\n";
     }
 
     const char *
@@ -185,7 +204,7 @@ namespace tribodraw::plot
       }
     if (n_curves == 0)
       return false;
-    return gnuplot::draw(folder, script.str() + curves.str(), width, chart.equal_axes ? 560 : 420, stem);
+    return gnuplot::draw(folder, script.str() + curves.str(), width, chart.equal_axes ? 420 : 370, stem);
   }
 
   bool
@@ -195,7 +214,11 @@ namespace tribodraw::plot
     if (!available() || raster.value.empty())
       return false;
     const gnuplot::TemporaryFolder folder;
-    const auto                     range = chart.range.value_or(value_range(raster.value));
+    // Classes lie in the middle of equal parts of the colour bar.
+    const bool classes = !chart.classes.empty();
+    const auto n       = static_cast<double>(chart.classes.size());
+    const auto range   = classes ? std::pair{ 1., n } : chart.range.value_or(value_range(raster.value));
+    const auto bar     = classes ? std::pair{ 0.5, n + 0.5 } : range;
     write_file(folder.path() / "pixels", pixels(raster, range));
     const double dx = (raster.x_max - raster.x_min) / raster.nx, dy = (raster.y_max - raster.y_min) / raster.ny;
     const auto   text = [](const double v) { return units::number(v); };
@@ -203,12 +226,13 @@ namespace tribodraw::plot
     std::ostringstream script;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << palette() << "set size ratio -1\nset xrange ["
            << text(raster.x_min) << ':' << text(raster.x_max) << "]\nset yrange [" << text(raster.y_min) << ':'
-           << text(raster.y_max) << "]\nset cbrange [" << text(range.first) << ':' << text(range.second)
-           << "]\nset lmargin at screen 0.14\nset rmargin at screen 0.8\nset cblabel "
-           << gnuplot::quote(chart.value_label) << "\nset colorbox\nplot "
-           << gnuplot::quote((folder.path() / "pixels").string()) << " binary array=(" << raster.nx << ',' << raster.ny
-           << ") dx=" << text(dx) << " dy=" << text(dy) << " origin=(" << text(raster.x_min + dx / 2) << ','
-           << text(raster.y_min + dy / 2)
+           << text(raster.y_max) << "]\nset cbrange [" << text(bar.first) << ':' << text(bar.second) << "]\n"
+           << class_palette(chart.classes)
+           << "set format cb '%g'\nset lmargin at screen 0.18\nset rmargin at screen 0.77\nset cblabel "
+           << gnuplot::quote(chart.value_label) << " offset 1.5,0"
+           << "\nset colorbox\nplot " << gnuplot::quote((folder.path() / "pixels").string()) << " binary array=("
+           << raster.nx << ',' << raster.ny << ") dx=" << text(dx) << " dy=" << text(dy) << " origin=("
+           << text(raster.x_min + dx / 2) << ',' << text(raster.y_min + dy / 2)
            << ") format='%uchar%uchar%uchar%uchar' using 1:2:3:4 with rgbalpha notitle, \\\n  NaN with points palette "
               "notitle";
     for (std::size_t i = 0; i < chart.lines.size(); ++i)
@@ -223,7 +247,7 @@ namespace tribodraw::plot
       }
     // The field has the width between the margins above; title and labels need the rest of the height.
     const double   aspect = (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
-    const unsigned height = static_cast<unsigned>(std::clamp((0.8 - 0.14) * width * aspect + 110, 220., 1000.));
+    const unsigned height = static_cast<unsigned>(std::clamp((0.77 - 0.18) * width * aspect + 110, 180., 800.));
     return gnuplot::draw(folder, script.str(), width, height, stem);
   }
 } // namespace tribodraw::plot

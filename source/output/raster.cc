@@ -90,22 +90,43 @@ namespace tribodraw::plot
     }
   } // namespace
 
+  namespace
+  {
+    /// @p value gives a pixel's value from those of the corners and its barycentric coordinates.
+    template <class Value>
+    Raster
+    rasterise_corners(const PlanMesh &mesh, const std::vector<double> &values, const std::size_t pixels,
+                      const Value &value)
+    {
+      Raster raster = empty_raster(mesh, pixels);
+      if (raster.value.empty())
+        return raster;
+      for (const auto &[a, b, c] : mesh.triangles)
+        {
+          const std::array<double, 3> corner = { values.at(a), values.at(b), values.at(c) };
+          paint(raster, mesh.points[a], mesh.points[b], mesh.points[c],
+                [&](const std::size_t i, const double wa, const double wb, const double wc) {
+                  raster.value[i]  = value(corner, { wa, wb, wc });
+                  raster.inside[i] = 1;
+                });
+        }
+      return raster;
+    }
+  } // namespace
+
   Raster
   rasterise_nodal(const PlanMesh &mesh, const std::vector<double> &values, const std::size_t pixels)
   {
-    Raster raster = empty_raster(mesh, pixels);
-    if (raster.value.empty())
-      return raster;
-    for (const auto &[a, b, c] : mesh.triangles)
-      {
-        const std::array<double, 3> corner = { values.at(a), values.at(b), values.at(c) };
-        paint(raster, mesh.points[a], mesh.points[b], mesh.points[c],
-              [&](const std::size_t i, const double wa, const double wb, const double wc) {
-                raster.value[i]  = interpolate(corner, { wa, wb, wc });
-                raster.inside[i] = 1;
-              });
-      }
-    return raster;
+    return rasterise_corners(mesh, values, pixels, interpolate);
+  }
+
+  Raster
+  rasterise_nearest(const PlanMesh &mesh, const std::vector<double> &values, const std::size_t pixels)
+  {
+    return rasterise_corners(mesh, values, pixels,
+                             [](const std::array<double, 3> &corner, const std::array<double, 3> &weight) {
+                               return corner[std::max_element(weight.begin(), weight.end()) - weight.begin()];
+                             });
   }
 
   Raster

@@ -143,6 +143,9 @@ namespace tribodraw::figures
   {
     if (const auto file = folder / "surface.gsf"; std::filesystem::exists(file))
       draw_heights(read_surface_file(file), folder / "surface_map");
+    for (const char *name : { "sheet_surface", "tool_surface" }) // of a drawing
+      if (const auto file = folder / (std::string(name) + ".gsf"); std::filesystem::exists(file))
+        draw_heights(read_surface_file(file), folder / (std::string(name) + "_map"));
     if (const auto file = folder / "height_distribution.csv"; std::filesystem::exists(file))
       draw_distribution(read_csv(file), folder / "height_distribution");
     if (const auto file = folder / "abbott_curve.csv"; std::filesystem::exists(file))

@@ -34,9 +34,10 @@ window.addEventListener('load', () => {
              images: [...f.querySelectorAll('image')].every(i => (i.getAttribute('href') || i.getAttribute('xlink:href') || '').startsWith('data:')),
              marks: drawing ? drawing.querySelectorAll('path, polyline, line, image, rect, circle, polygon').length : 0 };
   });
+  const letters = [...document.querySelectorAll('figure svg')].map(s => 14 * s.getBoundingClientRect().width / s.viewBox.baseVal.width); // 14 points in the drawing
   const small = [...document.querySelectorAll('p, td, th, li, figcaption, h1, h2')].filter(e => parseFloat(getComputedStyle(e).fontSize) < 12).length;
   parent.postMessage(JSON.stringify({ width: innerWidth, scroll: root.scrollWidth, wide: [...new Set(wide)], contrast: (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05),
-    figures: figures, small: small, errors: window.errors, outside: performance.getEntriesByType('resource').map(r => r.name) }), '*');
+    figures: figures, letters: Math.min(...letters), small: small, errors: window.errors, outside: performance.getEntriesByType('resource').map(r => r.name) }), '*');
 });
 </script>
 """
@@ -44,8 +45,24 @@ window.addEventListener('load', () => {
 CASES = {
     'drawing': ['prm/cross_die.prm', '--set', 'Coupling/Friction = constant', '--set', 'Coupling/Constant friction coefficient = 0.1',
                 '--set', 'Blank/Element size = 13 mm', '--set', 'Process/Punch travel = 10 mm'],
+    'lubricated': ['prm/cross_die.prm', '--set', 'Blank/Element size = 13 mm', '--set', 'Process/Punch travel = 4 mm',
+                   *(word for entry in ('Sheet surface', 'Tool surface') for word in ('--set', entry + '/Generated/Pixels = 96')),
+                   '--set', 'Friction table/Interpolation error = 1', '--set', 'Friction table/Pressures = 1, 10, 100 MPa',
+                   '--set', 'Friction table/Strains = 0, 0.1, 0.5'],
     'sheet': ['prm/shell_limit_load.prm'],
 }
+
+# Headings and figures without which the page would not be whole.
+WANTED = {
+    'drawing': ['force_travel', 'draw_in', 'outline', 'fld', 'thinning_cuts', 'contact_pressure_die_blank', 'conservation-and-accuracy', 'parameters-in-effect', 'how-to-cite'],
+    'lubricated': ['compare_punch_force', 'measured-and-computed', 'surfaces', 'sheet_surface_map', 'tool_surface_map', 'table_phi_p', 'table_contact_fraction',
+                   'friction_coefficient_die_blank', 'friction_coefficient_punch_blank', 'lubricant_pressure_die_blank', 'lubricant_pressure_punch_blank',
+                   'lubrication_regime_die_blank', 'lubrication_regime_punch_blank', 'mean_friction', 'warnings', 'versions-and-provenance'],
+    'sheet': ['load_displacement', 'key-figures'],
+}
+
+# Punch travel and force as a press would record them; the values do not matter here.
+MEASURED = 'punch_travel_mm,punch_force_kn\n0.5,0.4\n1,0.9\n2,2\n3,3.5\n'
 
 
 def browse(browser, page, *options):
@@ -89,6 +106,8 @@ def check(name, report, browser, folder):
                 problems.append('%s: contrast of text %.1f' % (where, r['contrast']))
             if r['small']:
                 problems.append('%s: %d texts are smaller than 12 pixels' % (where, r['small']))
+            if r['letters'] < 9:
+                problems.append('%s: letters of %.1f pixels in a figure' % (where, r['letters']))
             if r['outside']:
                 problems.append('%s: loaded from outside: %s' % (where, r['outside']))
             if len(r['figures']) != listed or not listed:
@@ -128,6 +147,13 @@ def main():
                 if run.returncode != 0:
                     sys.exit('%s ended with %d:\n%s' % (case, run.returncode, run.stderr))
                 reports[case] = output / 'report.html'
+            (folder / 'measured.csv').write_text(MEASURED)
+            run = subprocess.run([arguments.program, 'compare', str(folder / 'measured.csv'), str(folder / 'lubricated')], capture_output=True, text=True)
+            if run.returncode != 0:
+                sys.exit('compare ended with %d:\n%s' % (run.returncode, run.stderr))
+            for case, names in WANTED.items():
+                page = reports[case].read_text()
+                problems += ['%s: %s is missing' % (case, name) for name in names if 'id="%s"' % name not in page]
         for case, report in reports.items():
             problems += check(case, report, arguments.browser, folder)
     print('\n'.join(problems) or 'nothing to complain about')

@@ -45,6 +45,9 @@ namespace tribodraw
                                                 const std::filesystem::path                            &folder,
                                                 const std::vector<std::pair<std::string, std::string>> &pairs);
 
+  /// Name of a column as one reads it: `punch_force_n` -> "Punch force / N".
+  std::string spoken_column(const std::string &column);
+
   /// Write compare.csv and one figure compare_QUANTITY.svg and .png for each curve into the folder.
   void write_comparison(const std::vector<CurveComparison> &curves, const std::filesystem::path &folder);
 } // namespace tribodraw

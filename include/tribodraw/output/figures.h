@@ -34,7 +34,7 @@ namespace tribodraw
     void draw_maps(const std::filesystem::path &folder);
     /// elements_final.csv with `major_strain,minor_strain`, flc.csv (`minor_strain,major_strain`) -> fld.
     void draw_forming_limits(const std::filesystem::path &folder);
-    /// nodes_final.csv and elements_final.csv -> outline (of the part and the blank), thickness_cuts (along x, y and the
+    /// nodes_final.csv and elements_final.csv -> outline (of the part and the blank), thinning_cuts (along x, y and the
     /// diagonal of the blank).
     void draw_cuts(const std::filesystem::path &folder);
     /// A field that is linear on each triangle along the line through the origin in the direction of the unit vector

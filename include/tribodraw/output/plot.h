@@ -55,6 +55,7 @@ namespace tribodraw
       std::string                              title, x_label, y_label, value_label;
       Raster                                   raster;
       std::optional<std::pair<double, double>> range; ///< of the colour scale; default: least and greatest value
+      std::vector<std::string> classes; ///< names of the values 1, 2, ..., if they are no quantity; each has one colour
       /// Polylines drawn on top (outlines), in the coordinates of the raster.
       std::vector<std::vector<std::array<double, 2>>> lines;
     };
@@ -70,10 +71,13 @@ namespace tribodraw
       /// Closed or open chains of the edges that belong to one triangle only.
       std::vector<std::vector<std::array<double, 2>>> outline() const;
     };
+    constexpr std::size_t map_pixels = 600; ///< along the longer side, twice what a page shows
     /// Paint a field that is linear on each triangle (one value a point). Pixels nearest to a NaN corner have no value.
-    Raster rasterise_nodal(const PlanMesh &mesh, const std::vector<double> &values, std::size_t pixels = 800);
+    Raster rasterise_nodal(const PlanMesh &mesh, const std::vector<double> &values, std::size_t pixels = map_pixels);
+    /// Each pixel gets the value of the nearest corner of its triangle.
+    Raster rasterise_nearest(const PlanMesh &mesh, const std::vector<double> &values, std::size_t pixels = map_pixels);
     /// Paint a field that is constant on each triangle.
-    Raster rasterise_cells(const PlanMesh &mesh, const std::vector<double> &values, std::size_t pixels = 800);
+    Raster rasterise_cells(const PlanMesh &mesh, const std::vector<double> &values, std::size_t pixels = map_pixels);
 
     /// Write `<stem>.svg` and `<stem>.png`. Returns false (after a warning) if that was not possible.
     bool draw(const LineChart &chart, const std::filesystem::path &stem);

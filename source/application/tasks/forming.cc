@@ -1,6 +1,7 @@
 #include <tribodraw/application/provenance.h>
 #include <tribodraw/application/task.h>
 #include <tribodraw/base/log.h>
+#include <tribodraw/base/parallel.h>
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/base/units.h>
 #include <tribodraw/forming/constant_friction.h>
@@ -10,6 +11,7 @@
 #include <tribodraw/friction_table/builder.h>
 #include <tribodraw/output/dynain.h>
 #include <tribodraw/output/forming_output.h>
+#include <tribodraw/output/friction_inputs.h>
 
 #include <algorithm>
 
@@ -104,7 +106,7 @@ namespace tribodraw
       std::unique_ptr<FrictionCoupling> make_friction(const RunContext &context)
       {
         if (lubricated)
-          return std::make_unique<LubricatedFriction>(friction_tables(context.output_folder.parent_path()), lubricant, lubrication);
+          return std::make_unique<LubricatedFriction>(friction_tables(context), lubricant, lubrication);
         if (pressure_law)
           return std::make_unique<PressureFriction>(pressure_law);
         if (std::none_of(tools.tools.begin(), tools.tools.end(), [](const ProcessTool &tool) { return tool.friction; }))
@@ -180,8 +182,9 @@ namespace tribodraw
       }
 
       /// The friction table of each tool: read, found in the cache beside the output, or built.
-      std::vector<std::shared_ptr<const FrictionTable>> friction_tables(const std::filesystem::path &cache)
+      std::vector<std::shared_ptr<const FrictionTable>> friction_tables(const RunContext &context)
       {
+        const std::filesystem::path cache = context.output_folder.parent_path();
         std::vector<std::shared_ptr<const FrictionTable>> tables;
         for (std::size_t zone = 0; zone < builders.size(); ++zone)
           if (builders[zone])
@@ -192,6 +195,13 @@ namespace tribodraw
             }
           else
             tables.push_back(std::make_shared<FrictionTable>(FrictionTable::read(table_files[zone])));
+        if (parallel::rank() == 0)
+          {
+            std::vector<ToolFriction> inputs;
+            for (std::size_t zone = 0; zone < tables.size(); ++zone)
+              inputs.push_back({ tools.tools[zone].name, tables[zone], builders[zone].get() });
+            write_friction_inputs(inputs, context.output_folder);
+          }
         return tables;
       }
 

@@ -39,7 +39,7 @@ namespace
       {
         files.push_back(folder / (stem + ".svg"));
         ASSERT_TRUE(std::filesystem::exists(files.back())) << stem;
-        EXPECT_EQ(png_size(folder / (stem + ".png")).first, 1440u); // twice the 720 points of the SVG
+        EXPECT_EQ(png_size(folder / (stem + ".png")).first, 960u); // twice the 480 points of the SVG
       }
     EXPECT_EQ(TemporaryFolder::parse_xml(files), 0);
   }

@@ -19,7 +19,12 @@ namespace
     write_file(
         folder / "history.csv",
         "time_s,punch_travel_mm,punch_force_n,min_thickness_mm\n0,0,0,0.82\n1,10,51234.5,0.8\n2,20,42000,0.7512\n");
-    write_file(folder / "effective.prm", "set Task = forming # <not a tag> & more\n");
+    write_file(folder / "effective.prm",
+               "set Task = forming # <not a tag> & more\nsubsection Blank\n  set Thickness = 0.8 mm\n"
+               "  subsection Edges\n    set Outer edge = free\n  end\nend\n");
+    write_file(folder / "results.csv",
+               "quantity,value,unit\nconverged,1,\nlargest_penetration,0.04,mm\nenergy_error,-0.002,\n"
+               "necked_at_x,12.5,mm\nnecked_at_y,3,mm\n");
     write_file(folder / "run_info.txt", "tribodraw 0.1.0\n");
     write_file(folder / "log.txt", "Step 1\nWarning: the mesh is <coarse>\nStep 2\n");
     write_file(folder / "citations.txt", "Shisode et al. 2021\n");
@@ -47,11 +52,46 @@ TEST(Report, shows_figures_key_figures_warnings_and_inputs)
   const TemporaryFolder folder;
   const std::string     html = make_report(folder);
   EXPECT_NE(html.find("<figure id=\"force_travel\"><svg"), std::string::npos);
-  EXPECT_NE(html.find(">51.23<"), std::string::npos);  // greatest punch force of history.csv, in kN with four digits
-  EXPECT_NE(html.find(">0.7512<"), std::string::npos); // thickness in the last row
+  EXPECT_NE(html.find("<b>51.23 <span>kN</span>"), std::string::npos);  // greatest punch force of history.csv, in kN with four digits
+  EXPECT_NE(html.find("<b>0.7512 <span>mm</span>"), std::string::npos); // thickness in the last row
   EXPECT_NE(html.find("<li>the mesh is &lt;coarse&gt;</li>"), std::string::npos);
   EXPECT_NE(html.find("&lt;not a tag&gt; &amp; more"), std::string::npos);
   EXPECT_NE(html.find("Shisode et al. 2021"), std::string::npos);
+  EXPECT_NE(html.find("<td>Thickness</td><td>0.8 mm</td>"), std::string::npos);
+  EXPECT_NE(html.find("<th colspan=\"2\">Edges</th>"), std::string::npos);
+  EXPECT_NE(html.find("<b>12.5, 3 <span>mm</span></b>Necked at x, y"), std::string::npos);
+}
+
+TEST(Report, says_what_is_conserved_and_what_is_above_the_usual)
+{
+  const TemporaryFolder folder;
+  const std::string     html   = make_report(folder);
+  const auto            row_of = [&](const char *text) {
+    return html.substr(html.find(text), html.find("</tr>", html.find(text)) - html.find(text));
+  };
+  EXPECT_NE(row_of("Energy:").find("-0.002"), std::string::npos);
+  EXPECT_NE(row_of("Energy:").find("✓"), std::string::npos);
+  // 0.04 mm of 0.8 mm: 5 %, above 3 %
+  EXPECT_NE(row_of("Largest penetration").find("0.05"), std::string::npos);
+  EXPECT_NE(row_of("Largest penetration").find("above what is usual"), std::string::npos);
+}
+
+TEST(Report, shows_measured_curves_and_surfaces)
+{
+  const TemporaryFolder folder;
+  write_file(folder / "compare.csv", "quantity,over,points,from,to,rms,relative_rms,mean,largest,largest_at,measured_"
+                                     "peak,computed_peak,measured_area,computed_area\n"
+                                     "punch_force_n,punch_travel_mm,5,1,10,1200,0.0125,-300,2000,8,96000,95000,1,1\n");
+  write_file(folder / "surfaces.csv",
+             "surface,description,sa_um,sq_um\nsheet,measured; form removed,1.25,1.61\nDie,ideally smooth,nan,nan\n");
+  write_report(folder.path());
+  const std::string html = read_file(folder / "report.html");
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "report.html" }), 0);
+  EXPECT_NE(html.find("Punch force / N"), std::string::npos);
+  EXPECT_NE(html.find(">1.25 %<"), std::string::npos); // rms over the measured peak
+  EXPECT_NE(html.find("2000 at 8"), std::string::npos);
+  EXPECT_NE(html.find("measured; form removed</td><td class=\"number\">1.25<"), std::string::npos);
+  EXPECT_NE(html.find("ideally smooth</td><td class=\"number\"><"), std::string::npos); // no value, no number
 }
 
 TEST(Report, ids_are_unique_although_figures_share_theirs)
