@@ -101,7 +101,7 @@ namespace tribodraw::gnuplot
            << "set terminal svg size " << width << ',' << height << " dynamic noenhanced font 'Helvetica,14' name "
            << quote(stem.filename().string()) << "\nset output " << quote(in("out.svg").string()) << '\n'
            << plot << "\nset output\nset terminal pngcairo size " << 2 * width << ',' << 2 * height
-           << " noenhanced background 'white' font 'Helvetica,14' fontscale 2 linewidth 2 pointscale 2\nset output "
+           << " noenhanced background 'white' font 'Helvetica,14' fontscale 1.6 linewidth 2 pointscale 2\nset output "
            << quote(in("out.png").string()) << "\nreplot\nset output\n";
     write_file(in("plot.gp"), script.str());
 

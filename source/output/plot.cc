@@ -72,6 +72,17 @@ namespace tribodraw::plot
              + gnuplot::quote(y) + "\nset tics nomirror out\nset border 3\n";
     }
 
+    /// 1, 2 or 5 times a power of ten, so that a range has at most six tics.
+    double
+    tic_distance(const double range)
+    {
+      const double power = std::pow(10., std::floor(std::log10(range / 5)));
+      for (const double factor : { 1., 2., 5. })
+        if (factor * power * 5 >= range)
+          return factor * power;
+      return 10 * power;
+    }
+
     /// Steps of colour with the names of the classes; nothing if the values are a quantity.
     std::string
     class_palette(const std::vector<std::string> &classes)
@@ -180,7 +191,8 @@ namespace tribodraw::plot
       script << "set yrange [0:*]\n";
     if (chart.equal_axes)
       script << "set size ratio -1\n";
-    unsigned n_curves = 0;
+    unsigned    n_curves = 0, n_labels = 0;
+    std::size_t longest = 0; // label
     for (const Series &series : chart.series)
       {
         const auto usable = [&](const std::size_t i) {
@@ -201,10 +213,14 @@ namespace tribodraw::plot
                << " using 1:2 " << style_of(series.style) << " lc rgb '" << line_colours[n_curves % line_colours.size()]
                << "' title " << gnuplot::quote(series.label);
         ++n_curves;
+        n_labels += !series.label.empty();
+        longest = std::max(longest, series.label.size());
       }
     if (n_curves == 0)
       return false;
-    return gnuplot::draw(folder, script.str() + curves.str(), width, chart.equal_axes ? 420 : 370, stem);
+    const unsigned key_rows = longest > 14 ? n_labels : (n_labels + 1) / 2; // as gnuplot arranges them in this width
+    return gnuplot::draw(folder, script.str() + curves.str(), width, (chart.equal_axes ? 400 : 340) + 22 * key_rows,
+                         stem);
   }
 
   bool
@@ -226,7 +242,7 @@ namespace tribodraw::plot
     std::ostringstream script;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << palette() << "set size ratio -1\nset xrange ["
            << text(raster.x_min) << ':' << text(raster.x_max) << "]\nset yrange [" << text(raster.y_min) << ':'
-           << text(raster.y_max) << "]\nset cbrange [" << text(bar.first) << ':' << text(bar.second) << "]\n"
+           << text(raster.y_max) << "]\nset xtics " << text(tic_distance(raster.x_max - raster.x_min)) << "\nset ytics " << text(tic_distance(raster.y_max - raster.y_min)) << "\nset cbrange [" << text(bar.first) << ':' << text(bar.second) << "]\n"
            << class_palette(chart.classes)
            << "set format cb '%g'\nset lmargin at screen 0.18\nset rmargin at screen 0.77\nset cblabel "
            << gnuplot::quote(chart.value_label) << " offset 1.5,0"

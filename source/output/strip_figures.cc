@@ -30,18 +30,23 @@ namespace tribodraw::figures
         return;
       const CsvData       data = read_csv(file);
       std::vector<double> x    = data.numbers(sweep.column);
-      plot::LineChart     chart{ sweep.title, sweep.x_label, "Friction coefficient, share of load" };
+      plot::LineChart     chart{ sweep.title, sweep.x_label, "Friction coefficient" };
       chart.logarithmic_x = sweep.logarithmic && !x.empty() && x.front() > 0;
       chart.y_from_zero   = true;
       chart.series        = { { "friction coefficient", x, data.numbers("mu"), Style::line_with_points },
-                              { "part of the asperities", x, data.numbers("solid_friction"), Style::dashed_line },
-                              { "load carried by the lubricant", x, data.numbers("lubricant_share"), Style::line } };
+                              { "part of the asperities", x, data.numbers("solid_friction"), Style::dashed_line } };
       if (data.numbers("mu_lowest") != data.numbers("mu_highest"))
         {
-          chart.series.push_back({ "least of the maps", x, data.numbers("mu_lowest"), Style::dots });
-          chart.series.push_back({ "greatest of the maps", x, data.numbers("mu_highest"), Style::dots });
+          chart.series.push_back({ "least of the maps", x, data.numbers("mu_lowest"), Style::line });
+          chart.series.push_back({ "greatest of the maps", x, data.numbers("mu_highest"), Style::line });
         }
       plot::draw(chart, folder / sweep.file);
+
+      plot::LineChart share{ "Load on the lubricant", sweep.x_label, "Share of the load" };
+      share.logarithmic_x = chart.logarithmic_x;
+      share.y_from_zero   = true;
+      share.series        = { { "", x, data.numbers("lubricant_share"), Style::line_with_points } };
+      plot::draw(share, folder / (std::string(sweep.file) + "_share"));
     }
 
     void

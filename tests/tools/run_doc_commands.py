@@ -17,7 +17,8 @@ import tempfile
 COMMAND = re.compile(r"^\s*(\./run|build/tribodraw|tribodraw|cp|for|done|do|grep|mpirun|--set|\|)(\s|$)")
 TESTED_ELSEWHERE = re.compile(r"^\s*(cmake|\./test|\./bench|ctest|python3|doc/site)")  # extension, the tests themselves, the site
 FILE = re.compile(r"`([\w/]+\.prm)`[^`]*:\s*$")
-PAGES_WITH_COMMANDS = {"cross_die.md", "tutorials/flow_factors_of_your_surface.md", "tutorials/friction_table.md", "tutorials/shell_benchmarks.md"}
+PAGES_WITH_COMMANDS = {"cross_die.md", *("tutorials/" + name + ".md" for name in (
+    "surface", "flow_factors_of_your_surface", "friction_table", "strip_draw", "square_cup", "shell_benchmarks"))}
 
 WRAPPER = """#!/usr/bin/env bash
 # the program on smaller maps, drawings only validated

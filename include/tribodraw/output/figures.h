@@ -23,7 +23,7 @@ namespace tribodraw
     /// table_friction_coefficient, table_phi_p, table_phi_s, each over solid pressure for several plastic strains.
     void draw_friction_table(const std::filesystem::path &folder);
 
-    /// strip_profile.csv, sweep_<quantity>.csv -> strip_pressure, strip_gap, sweep_<quantity>.
+    /// strip_profile.csv, sweep_<quantity>.csv -> strip_pressure, strip_gap, sweep_<quantity>, sweep_<quantity>_share.
     void draw_strip(const std::filesystem::path &folder);
 
     /// history.csv of a forming run -> force_travel, draw_in, mean_friction, peak_lubricant_pressure.
