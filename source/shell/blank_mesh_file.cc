@@ -41,9 +41,9 @@ namespace tribodraw
       return mesh;
     }
 
-    /// Move the plane to z = 0 and nodes at the planes of symmetry exactly onto them.
-    void
-    flatten(BlankMesh &mesh, const std::string &name)
+    /// Lowest and highest coordinates.
+    std::pair<Vector3d, Vector3d>
+    extent(const BlankMesh &mesh)
     {
       Vector3d low = mesh.nodes[0], high = low;
       for (const Vector3d &x : mesh.nodes)
@@ -51,6 +51,14 @@ namespace tribodraw
           low  = low.cwiseMin(x);
           high = high.cwiseMax(x);
         }
+      return { low, high };
+    }
+
+    /// Move the plane to z = 0 and nodes at the planes of symmetry exactly onto them.
+    void
+    flatten(BlankMesh &mesh, const std::string &name)
+    {
+      const auto   [low, high] = extent(mesh);
       const double limit = same_place * (high - low).norm();
       if (high.z() - low.z() > limit)
         throw InputError(describe_error("The mesh of a blank must lie in a plane of constant z.", name,
@@ -69,8 +77,13 @@ namespace tribodraw
     void
     check_distances(const BlankMesh &mesh, const std::string &name)
     {
+      const auto [low, high] = extent(mesh);
+      const double shortest  = mesh.smallest_edge();
+      if (!(shortest > same_place * (high - low).norm()))
+        throw InputError(describe_error("An edge of the mesh has no length.", name, std::to_string(shortest) + " mm",
+                                        "more than 1e-7 of the size of the mesh", "Is a node far from the others?"));
       // Sorted along x, equal places are neighbours within the limit.
-      const double          limit = 1e-3 * mesh.smallest_edge();
+      const double          limit = 1e-3 * shortest;
       std::vector<unsigned> order(mesh.nodes.size());
       for (unsigned i = 0; i < order.size(); ++i)
         order[i] = i;
@@ -86,8 +99,8 @@ namespace tribodraw
               const Vector3d &x = mesh.nodes[node];
               // The shift is part of the key, so that the four grids do not mix.
               const auto found = seen.emplace(
-                  std::make_pair(4 * cell(x.x(), shift_x) + (shift_x > 0 ? 2 : 0) + (shift_y > 0 ? 1 : 0),
-                                 cell(x.y(), shift_y)),
+                  std::make_pair(4 * cell(x.x() - low.x(), shift_x) + (shift_x > 0 ? 2 : 0) + (shift_y > 0 ? 1 : 0),
+                                 cell(x.y() - low.y(), shift_y)),
                   node);
               if (!found.second && found.first->second != node)
                 throw InputError(describe_error("Two nodes of the mesh lie at the same place.", name,

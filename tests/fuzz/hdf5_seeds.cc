@@ -9,11 +9,11 @@ namespace
 {
   constexpr hsize_t n_rows = 3;
 
-  struct Row
+  struct Row // without gaps, whose content would be arbitrary
   {
-    float  travel;
     double force;
-    char   comment[8];
+    float  travel;
+    char   comment[12];
   };
 
   /// Settings for data sets without the time of writing.
@@ -29,11 +29,11 @@ namespace
   write_compound(const hid_t group, const hid_t space)
   {
     const hid_t text = H5Tcopy(H5T_C_S1), type = H5Tcreate(H5T_COMPOUND, sizeof(Row)), settings = timeless();
-    H5Tset_size(text, 8);
+    H5Tset_size(text, sizeof Row::comment);
     H5Tinsert(type, "punch_travel_mm", HOFFSET(Row, travel), H5T_NATIVE_FLOAT);
     H5Tinsert(type, "punch_force_kn", HOFFSET(Row, force), H5T_NATIVE_DOUBLE);
     H5Tinsert(type, "comment", HOFFSET(Row, comment), text);
-    const Row   rows[n_rows] = { { 1, 2.5, "a" }, { 2, 4.5, "b" }, { 3, 6.5, "c" } };
+    const Row   rows[n_rows] = { { 2.5, 1, "a" }, { 4.5, 2, "b" }, { 6.5, 3, "c" } };
     const hid_t data         = H5Dcreate2(group, "curve", type, space, H5P_DEFAULT, settings, H5P_DEFAULT);
     H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows);
     H5Dclose(data);

@@ -133,6 +133,9 @@ TEST(Gmsh, MistakesAreNamedWithTheirLine)
                   "1 98 3 6"),
              "1 2 5 6", "1 98 99 6");
   EXPECT_NE(message(seam).find("same place"), std::string::npos) << message(seam);
+  // A node lost in space: the other edges are nothing against the size of the mesh.
+  const std::string lost = with(with(with(old_format, "6 2 1 0.5", "6 2 1e30 0.5"), "$Elements\n5", "$Elements\n4"), "5 2 2 7 1 2 5 6\n", "");
+  EXPECT_NE(message(lost).find("no length"), std::string::npos) << message(lost);
   EXPECT_NE(message("").find("no triangles"), std::string::npos);
   EXPECT_NE(message("hello\n").find("line 1"), std::string::npos);
   EXPECT_THROW(read_blank_mesh("/nowhere/mesh.msh"), InputError);
