@@ -1,30 +1,17 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/lubrication/gap_shape.h>
+#include "rectangular_gap.h"
 
 namespace tribodraw
 {
   namespace
   {
-    class InclinedSlider : public GapShape
+    class InclinedSlider : public RectangularGap
     {
     public:
-      explicit InclinedSlider(Parameters &parameters)
+      explicit InclinedSlider(Parameters &parameters) : RectangularGap(parameters)
       {
-        const Range film = Range::positive().usual(1e-2, 1e4), size = Range::positive().usual(1e-3, 1e5);
-        inlet  = parameters.quantity("Inlet film", "um", film, "Gap at x = 0.");
-        outlet = parameters.quantity("Outlet film", "um", film, "Gap at x = length.");
-        l      = parameters.quantity("Length", "mm", size, "Length along the direction of sliding x.");
-        b      = parameters.quantity("Width", "mm", size, "Width along y.");
-      }
-      double
-      length() const override
-      {
-        return l;
-      }
-      double
-      width() const override
-      {
-        return b;
+        const Range film = Range::positive().usual(1e-2, 1e4);
+        inlet            = parameters.quantity("Inlet film", "um", film, "Gap at x = 0.");
+        outlet           = parameters.quantity("Outlet film", "um", film, "Gap at x = length.");
       }
       double
       gap(const double x, double) const override
@@ -33,7 +20,7 @@ namespace tribodraw
       }
 
     private:
-      double inlet, outlet, l, b;
+      double inlet, outlet;
     };
   } // namespace
 

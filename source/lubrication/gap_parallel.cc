@@ -1,29 +1,15 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/lubrication/gap_shape.h>
+#include "rectangular_gap.h"
 
 namespace tribodraw
 {
   namespace
   {
-    class ParallelGap : public GapShape
+    class ParallelGap : public RectangularGap
     {
     public:
-      explicit ParallelGap(Parameters &parameters)
+      explicit ParallelGap(Parameters &parameters) : RectangularGap(parameters)
       {
-        const Range size = Range::positive().usual(1e-3, 1e5);
-        film             = parameters.quantity("Film", "um", Range::positive().usual(1e-2, 1e5), "Gap.");
-        l                = parameters.quantity("Length", "mm", size, "Length along the direction of sliding x.");
-        b                = parameters.quantity("Width", "mm", size, "Width along y.");
-      }
-      double
-      length() const override
-      {
-        return l;
-      }
-      double
-      width() const override
-      {
-        return b;
+        film = parameters.quantity("Film", "um", Range::positive().usual(1e-2, 1e5), "Gap.");
       }
       double
       gap(double, double) const override
@@ -32,7 +18,7 @@ namespace tribodraw
       }
 
     private:
-      double film, l, b;
+      double film;
     };
 
   } // namespace

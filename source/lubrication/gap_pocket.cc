@@ -1,35 +1,22 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/lubrication/gap_shape.h>
+#include "rectangular_gap.h"
 
 namespace tribodraw
 {
   namespace
   {
-    class PocketGap : public GapShape
+    class PocketGap : public RectangularGap
     {
     public:
-      explicit PocketGap(Parameters &parameters)
+      explicit PocketGap(Parameters &parameters) : RectangularGap(parameters)
       {
-        const Range film = Range::positive().usual(1e-2, 1e4), size = Range::positive().usual(1e-3, 1e5);
-        land   = parameters.quantity("Land film", "um", film, "Gap before and behind the pocket.");
+        const Range film = Range::positive().usual(1e-2, 1e4);
+        land             = parameters.quantity("Land film", "um", film, "Gap before and behind the pocket.");
         pocket = parameters.quantity("Pocket film", "um", film, "Gap in the pocket.");
-        l      = parameters.quantity("Length", "mm", size, "Length along the direction of sliding x.");
-        b      = parameters.quantity("Width", "mm", size, "Width along y; the pocket is as wide.");
-        start  = parameters.quantity("Pocket start", "mm", size, "Position x at which the pocket begins.");
-        end    = parameters.quantity("Pocket end", "mm", size, "Position x at which the pocket ends.");
+        start            = parameters.quantity("Pocket start", "mm", sides(), "Position x at which the pocket begins.");
+        end              = parameters.quantity("Pocket end", "mm", sides(), "Position x at which the pocket ends.");
         if (!(start < end && end < l) && !parameters.documentation_mode())
           parameters.problem("Pocket end", "The pocket does not lie inside the bearing.",
                              "above `Pocket start`, less than `Length`");
-      }
-      double
-      length() const override
-      {
-        return l;
-      }
-      double
-      width() const override
-      {
-        return b;
       }
       double
       gap(const double x, double) const override
@@ -43,7 +30,7 @@ namespace tribodraw
       }
 
     private:
-      double land, pocket, l, b, start, end;
+      double land, pocket, start, end;
     };
   } // namespace
 

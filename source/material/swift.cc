@@ -1,12 +1,11 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/material/hardening_law.h>
+#include "rate_independent_law.h"
 
 namespace tribodraw
 {
   namespace
   {
     /// Rate-independent power law sigma = K (eps0 + eps)^n (Swift 1952).
-    class Swift : public HardeningLaw
+    class Swift : public RateIndependentLaw<Swift>
     {
     public:
       explicit Swift(Parameters &parameters)
@@ -19,19 +18,6 @@ namespace tribodraw
       {
       }
 
-      FlowStress
-      flow_stress(const double strain, double /*rate*/) const override
-      {
-        return compute(strain);
-      }
-
-      void
-      flow_stress_pack(const Pack &strain, const Pack & /*rate*/, FlowStressOf<Pack> &result) const override
-      {
-        pack::vectorised([&]() TRIBODRAW_INLINE { result = compute(strain); });
-      }
-
-    private:
       template <class Number>
       TRIBODRAW_INLINE FlowStressOf<Number>
                        compute(const Number &strain) const
@@ -40,6 +26,7 @@ namespace tribodraw
         return { value, n * value / (eps0 + strain), 0. };
       }
 
+    private:
       const double K, eps0, n;
     };
   } // namespace

@@ -1,12 +1,11 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/material/hardening_law.h>
+#include "rate_independent_law.h"
 
 namespace tribodraw
 {
   namespace
   {
     /// w K (eps0 + eps)^n + (1 - w) [sigma_s - (sigma_s - sigma_0) exp(-C eps)].
-    class SwiftVoce : public HardeningLaw
+    class SwiftVoce : public RateIndependentLaw<SwiftVoce>
     {
     public:
       explicit SwiftVoce(Parameters &parameters)
@@ -29,18 +28,6 @@ namespace tribodraw
           parameters.problem("Saturation stress", "it is below the initial stress", "at least `Initial stress`");
       }
 
-      FlowStress
-      flow_stress(const double strain, double /*rate*/) const override
-      {
-        return compute(strain);
-      }
-      void
-      flow_stress_pack(const Pack &strain, const Pack & /*rate*/, FlowStressOf<Pack> &result) const override
-      {
-        pack::vectorised([&]() TRIBODRAW_INLINE { result = compute(strain); });
-      }
-
-    private:
       template <class Number>
       TRIBODRAW_INLINE FlowStressOf<Number>
                        compute(const Number &strain) const
@@ -50,6 +37,7 @@ namespace tribodraw
         return { power + (1 - weight) * saturation - missing, n * power / (eps0 + strain) + rate * missing, 0. };
       }
 
+    private:
       const double weight, K, eps0, n, initial, saturation, rate;
     };
   } // namespace

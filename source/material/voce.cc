@@ -1,12 +1,11 @@
-#include <tribodraw/base/parameters.h>
-#include <tribodraw/material/hardening_law.h>
+#include "rate_independent_law.h"
 
 namespace tribodraw
 {
   namespace
   {
     /// Hardening that saturates: sigma = sigma_s - (sigma_s - sigma_0) exp(-C eps).
-    class Voce : public HardeningLaw
+    class Voce : public RateIndependentLaw<Voce>
     {
     public:
       explicit Voce(Parameters &parameters)
@@ -21,18 +20,6 @@ namespace tribodraw
           parameters.problem("Saturation stress", "it is below the initial stress", "at least `Initial stress`");
       }
 
-      FlowStress
-      flow_stress(const double strain, double /*rate*/) const override
-      {
-        return compute(strain);
-      }
-      void
-      flow_stress_pack(const Pack &strain, const Pack & /*rate*/, FlowStressOf<Pack> &result) const override
-      {
-        pack::vectorised([&]() TRIBODRAW_INLINE { result = compute(strain); });
-      }
-
-    private:
       template <class Number>
       TRIBODRAW_INLINE FlowStressOf<Number>
                        compute(const Number &strain) const
@@ -41,6 +28,7 @@ namespace tribodraw
         return { saturation - missing, rate * missing, 0. };
       }
 
+    private:
       const double initial, saturation, rate;
     };
   } // namespace
