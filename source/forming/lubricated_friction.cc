@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace tribodraw
 {
@@ -226,12 +227,9 @@ namespace tribodraw
                       n_unsettled, settings.friction_loops, 100 * worst_change);
         log::warning(text);
       }
-    unsigned long outside = 0;
-    for (const auto &table : tables)
-      outside += table->n_outside();
-    if (outside > 0)
-      log::warning(std::to_string(outside) + " look-ups were outside the range of the friction tables and took the value at its end. "
-                   "Extend 'Friction table/Pressures' or 'Friction table/Strains'.");
+    // Tools may share a table.
+    for (const auto &table : std::set<std::shared_ptr<const FrictionTable>>(tables.begin(), tables.end()))
+      table->warn_of_look_ups_beyond();
   }
 
   void

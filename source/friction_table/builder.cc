@@ -53,12 +53,13 @@ namespace tribodraw
     }
 
     std::function<HeightMap()>
-    read_tool_surface(Parameters &parameters, const std::string &zone)
+    read_tool_surface(Parameters &parameters, const std::string &zone, std::string &own_zone)
     {
       const auto section    = parameters.section("Tool surface");
       const auto read_zones = !zone.empty() && (parameters.has_section(zone) || parameters.documentation_mode());
       if (!read_zones)
         return read_surface(parameters);
+      own_zone                = zone;
       const auto zone_section = parameters.section(zone);
       return read_surface(parameters);
     }
@@ -112,7 +113,7 @@ namespace tribodraw
       const auto section = parameters.section("Sheet surface");
       builder.make_sheet = read_surface(parameters);
     }
-    builder.make_tool = read_tool_surface(parameters, zone);
+    builder.make_tool = read_tool_surface(parameters, zone, builder.own_zone);
     {
       const auto section      = parameters.section("Flattening");
       builder.pair.flattening = Flattening::read(parameters);

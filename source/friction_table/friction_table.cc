@@ -1,3 +1,5 @@
+#include <tribodraw/base/log.h>
+#include <tribodraw/base/units.h>
 #include <tribodraw/friction_table/friction_table.h>
 
 #include <algorithm>
@@ -37,26 +39,49 @@ namespace tribodraw
     constexpr unsigned int max_strain_steps    = 200;
   } // namespace
 
-  FrictionTable::FrictionTable(const FrictionTable &other)
+  FrictionTable::Counter &
+  FrictionTable::Counter::operator=(const Counter &other)
   {
-    *this = other;
+    n       = other.n.load();
+    largest = other.largest.load();
+    return *this;
   }
 
-  FrictionTable &
-  FrictionTable::operator=(const FrictionTable &other)
+  void
+  FrictionTable::Counter::add(const double value)
   {
-    curves                  = other.curves;
-    cut_height_normal       = other.cut_height_normal;
-    strain_load_per_descent = other.strain_load_per_descent;
-    cut_height_monotone     = other.cut_height_monotone;
-    boundary_layer_shear    = other.boundary_layer_shear;
-    shear_strength          = other.shear_strength;
-    ploughing_coefficient   = other.ploughing_coefficient;
-    sq                      = other.sq;
-    initial_cut_height      = other.initial_cut_height;
-    provenance              = other.provenance;
-    outside                 = other.outside.load();
-    return *this;
+    ++n;
+    for (double known = largest; known < value && !largest.compare_exchange_weak(known, value);)
+      ;
+  }
+
+  FrictionTable::Beyond
+  FrictionTable::beyond_pressures() const
+  {
+    return { beyond[0].n, beyond[0].largest };
+  }
+
+  FrictionTable::Beyond
+  FrictionTable::beyond_strains() const
+  {
+    return { beyond[1].n, beyond[1].largest };
+  }
+
+  void
+  FrictionTable::warn_of_look_ups_beyond() const
+  {
+    if (const Beyond p = beyond_pressures(); p.n > 0)
+      log::warning(std::to_string(p.n) + " look-ups in the friction table asked for pressures up to "
+                   + units::format(p.largest, "MPa") + " and took the value of its largest, "
+                   + units::format(max_pressure(), "MPa") + ". Extend 'Friction table/Pressures'.");
+    if (const Beyond eps = beyond_strains(); eps.n > 0)
+      log::warning(std::to_string(eps.n) + " look-ups in the friction table asked for strains up to "
+                   + units::number(eps.largest) + " and took the value of its largest, " + units::number(max_strain())
+                   + ". Extend 'Friction table/Strains'.");
+    if (const unsigned long n = n_beyond_cut_heights(); n > 0)
+      log::warning(std::to_string(n) + " look-ups in the friction table flattened the sheet to its largest contact fraction, "
+                   + units::number(max_contact_fraction())
+                   + ", within its pressures and strains. Extend 'Friction table/Pressures' or 'Friction table/Strains'.");
   }
 
   double
@@ -138,7 +163,8 @@ namespace tribodraw
         s          = s_points[cell];
         upper_rate = lower_rate;
       }
-    ++outside; // more strain than the axis of s reaches down
+    if (p_solid <= max_pressure() && eps <= max_strain())
+      beyond[2].add(0); // more strain than the axis of s reaches down
     return s;
   }
 
@@ -147,8 +173,10 @@ namespace tribodraw
   {
     if (!(p_solid > 0))
       return s_old;
-    if (p_solid > max_pressure() || eps_new > max_strain())
-      ++outside;
+    if (p_solid > max_pressure())
+      beyond[0].add(p_solid);
+    if (eps_new > max_strain())
+      beyond[1].add(eps_new);
     double s = std::min(s_old, initial_cut_height);
     if (strain_load_per_descent.values().front() >= rigid_strain_load)
       s = std::min(s, std::max(curves.cut_height.front(), normal_cut_height(p_solid, eps_old)));

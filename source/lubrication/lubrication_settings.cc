@@ -29,8 +29,8 @@ namespace tribodraw
                             "`staggered`: the sheet moves with the friction of the increment before, as in the paper. "
                             "`iterated`: film and friction are found from the increment's own pressures and velocities "
                             "while its equilibrium is sought, until they belong to it.",
-                            Default{ "staggered", "with increments of 1 mm the punch force is 0.8 % smaller than "
-                                                  "iterated, which takes a tenth more Newton iterations" })
+                            Default{ "iterated", "friction belongs to the increment; staggered saves some 5 % of the "
+                                                 "time, and with increments of 1 mm its punch force is 0.8 % smaller" })
           == "iterated";
     if (!iterated && !parameters.documentation_mode())
       {
@@ -48,7 +48,7 @@ namespace tribodraw
         "`Friction loop = iterated` only: the loop ends when the coefficients of the film differ from those that act by "
         "less than this, in parts of the friction force (sum of |change| times force over sum of coefficient times "
         "force).",
-        Default{ "0.01", "a punch force within 0.1 %; the change from increment to increment is 10 %" });
+        Default{ "0.02", "a punch force within 0.1 %; the change from increment to increment is 10 %" });
   }
 
   LubricationSettings

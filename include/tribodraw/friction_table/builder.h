@@ -64,6 +64,13 @@ namespace tribodraw
     /// @param zone `Punch`, `Die`, `Blank holder`; empty: one tool surface only.
     static FrictionTableBuilder read(Parameters &parameters, const std::string &zone = "");
 
+    /// The zone if the file gives it a tool surface of its own. Builders of one file for which this is equal make the
+    /// same table.
+    const std::string &
+    tool_surface_zone() const
+    {
+      return own_zone;
+    }
     /// Hash of everything the table depends on: maps and settings. Makes the maps.
     std::string   fingerprint();
     FrictionTable build(const std::function<void(double)> &progress = {});
@@ -93,7 +100,7 @@ namespace tribodraw
   private:
     const PairDescription &make_maps();
 
-    std::string                          zone;
+    std::string                          zone, own_zone;
     std::function<HeightMap()>           make_sheet, make_tool;
     std::shared_ptr<const SheetMaterial> material;
     PairDescription                      pair;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -86,13 +87,23 @@ namespace tribodraw
     {
       return curves.contact_fraction.front();
     }
-    /// Number of look-ups above the range of the axes so far (clamped to the ends). Pressures below the first point are
+    /// Look-ups above the end of an axis so far; they took the value at the end. Pressures below the first point are
     /// inside: the limit p -> 0 is known.
-    unsigned long
-    n_outside() const
+    struct Beyond
     {
-      return outside;
+      unsigned long n       = 0;
+      double        largest = 0; ///< that was asked for
+    };
+    Beyond beyond_pressures() const; ///< [MPa]
+    Beyond beyond_strains() const;
+    /// Within both, but more flattening than at the largest pressure and strain (which a history can bring about).
+    unsigned long
+    n_beyond_cut_heights() const
+    {
+      return beyond[2].n;
     }
+    /// A warning for each axis that was left: how often, how far, and what to change.
+    void warn_of_look_ups_beyond() const;
 
     /// Throws InputError naming the first inconsistency (axis, size, sign, finiteness).
     void check(const std::string &name) const;
@@ -107,15 +118,22 @@ namespace tribodraw
     /// The monotone look-up as a table of the design's columns.
     CsvTable monotone_look_up() const;
 
-    FrictionTable() = default;
-    FrictionTable(const FrictionTable &other);
-    FrictionTable &operator=(const FrictionTable &other);
-
   private:
     double normal_cut_height(double p_solid, double eps) const;
     double descend(double s, double p_solid, double eps, double strain) const;
 
-    mutable std::atomic<unsigned long> outside{ 0 };
+    /// Counts and the largest of the values; any thread may look up.
+    struct Counter
+    {
+      std::atomic<unsigned long> n{ 0 };
+      std::atomic<double>        largest{ 0 };
+
+      Counter() = default;
+      Counter(const Counter &other) : n(other.n.load()), largest(other.largest.load()) {}
+      Counter &operator=(const Counter &other);
+      void     add(double value);
+    };
+    mutable std::array<Counter, 3> beyond; // pressure, strain, cut height
   };
 } // namespace tribodraw
 

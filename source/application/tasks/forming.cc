@@ -14,6 +14,7 @@
 #include <tribodraw/output/friction_inputs.h>
 
 #include <algorithm>
+#include <map>
 
 namespace tribodraw
 {
@@ -184,24 +185,33 @@ namespace tribodraw
       /// The friction table of each tool: read, found in the cache beside the output, or built.
       std::vector<std::shared_ptr<const FrictionTable>> friction_tables(const RunContext &context)
       {
-        const std::filesystem::path cache = context.output_folder.parent_path();
-        std::vector<std::shared_ptr<const FrictionTable>> tables;
+        const std::filesystem::path         cache = context.output_folder.parent_path();
+        std::vector<ToolFriction>           inputs;
+        std::map<std::string, ToolFriction> made; // tools with one surface share a table
         for (std::size_t zone = 0; zone < builders.size(); ++zone)
-          if (builders[zone])
-            {
-              Progress progress("Friction table of the " + tools.tools[zone].name, 1.);
-              tables.push_back(std::make_shared<FrictionTable>(builders[zone]->load_or_build(cache, [&](const double done) { progress.update(done); })));
-              progress.finish(builders[zone]->was_cached() ? "found in " + builders[zone]->cached_file(cache).string() : "kept in " + builders[zone]->cached_file(cache).string());
-            }
-          else
-            tables.push_back(std::make_shared<FrictionTable>(FrictionTable::read(table_files[zone])));
-        if (parallel::rank() == 0)
           {
-            std::vector<ToolFriction> inputs;
-            for (std::size_t zone = 0; zone < tables.size(); ++zone)
-              inputs.push_back({ tools.tools[zone].name, tables[zone], builders[zone].get() });
-            write_friction_inputs(inputs, context.output_folder);
+            ToolFriction input{ tools.tools[zone].name, nullptr, builders[zone].get() };
+            if (input.builder == nullptr)
+              input.table = std::make_shared<FrictionTable>(FrictionTable::read(table_files[zone]));
+            else if (const auto same = made.find(input.builder->tool_surface_zone()); same != made.end())
+              {
+                input.table   = same->second.table;
+                input.builder = same->second.builder;
+              }
+            else
+              {
+                Progress progress("Friction table of the " + input.tool, 1.);
+                input.table = std::make_shared<FrictionTable>(input.builder->load_or_build(cache, [&](const double done) { progress.update(done); }));
+                progress.finish((input.builder->was_cached() ? "found in " : "kept in ") + input.builder->cached_file(cache).string());
+                made[input.builder->tool_surface_zone()] = input;
+              }
+            inputs.push_back(input);
           }
+        if (parallel::rank() == 0)
+          write_friction_inputs(inputs, context.output_folder);
+        std::vector<std::shared_ptr<const FrictionTable>> tables;
+        for (const auto &input : inputs)
+          tables.push_back(input.table);
         return tables;
       }
 

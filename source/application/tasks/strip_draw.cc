@@ -140,10 +140,7 @@ namespace tribodraw
           run_sweep(contact, sweep, context);
         if (coefficient_table)
           make_coefficient_table(contact, context);
-        if (table->n_outside() > 0)
-          log::warning(std::to_string(table->n_outside())
-                       + " look-ups were outside the range of the friction table and took the value at its end. "
-                         "Extend 'Friction table/Pressures' or 'Friction table/Strains'.");
+        table->warn_of_look_ups_beyond();
       }
 
     private:

@@ -1,5 +1,7 @@
 #include "sample_pair.h"
 
+#include <tribodraw/base/log.h>
+
 #include <gtest/gtest.h>
 
 using namespace tribodraw;
@@ -26,6 +28,12 @@ namespace
     for (unsigned int i = 0; i < n; ++i)
       s = table.advance(s, p, eps * i / n, eps * (i + 1) / n);
     return s;
+  }
+
+  bool
+  inside(const FrictionTable &table)
+  {
+    return table.beyond_pressures().n == 0 && table.beyond_strains().n == 0 && table.n_beyond_cut_heights() == 0;
   }
 } // namespace
 
@@ -56,7 +64,7 @@ TEST(FrictionTableState, IncrementsReproduceTheMonotoneLookUp)
         }
       std::cout << n_points << " points: interpolation error of the cut height " << at_points / um
                 << " um at the points of the axes, " << between / um << " um between them\n";
-      EXPECT_EQ(table.n_outside(), 0u);
+      EXPECT_TRUE(inside(table));
       if (previous > 0)
         {
           EXPECT_LT(at_points, previous / 3.) << n_points;
@@ -106,19 +114,30 @@ TEST(FrictionTableState, SmallPressuresLeadToTheUndeformedSheet)
     }
   EXPECT_NEAR(previous, top, 1e-6 * um);
   EXPECT_NEAR(table.advance(top, 1e-9 * p_min, 0., 0.1), top, 1e-6 * um);
-  EXPECT_EQ(table.n_outside(), 0u);
+  EXPECT_TRUE(inside(table));
 }
 
-// More load and strain than the table knows: clamped, finite and counted.
+// More load and strain than the table knows: clamped, finite, and counted for each axis with the largest value.
 TEST(FrictionTableState, CountsWhatIsOutside)
 {
-  const FrictionTable table = sample_table();
-  EXPECT_EQ(table.n_outside(), 0u);
+  FrictionTable table = sample_table();
+  EXPECT_TRUE(inside(table));
   const double bottom = table.curves.cut_height.front(), top = table.initial_cut_height;
   EXPECT_EQ(table.advance(top, 100., 0.2, 0.3), table.advance(top, 1000., 0.2, 0.3));
-  EXPECT_EQ(table.n_outside(), 1u);
-  EXPECT_GE(table.advance(top, 1000., 0., 50.), bottom);
-  EXPECT_GE(table.n_outside(), 2u);
+  EXPECT_EQ(table.beyond_pressures().n, 1u);
+  EXPECT_EQ(table.beyond_pressures().largest, 1000.);
+  EXPECT_EQ(table.beyond_strains().n, 0u);
+  EXPECT_GE(table.advance(top, 900., 0., 50.), bottom);
+  EXPECT_EQ(table.beyond_pressures().n, 2u);
+  EXPECT_EQ(table.beyond_pressures().largest, 1000.); // not the last
+  EXPECT_EQ(table.beyond_strains().n, 1u);
+  EXPECT_EQ(table.beyond_strains().largest, 50.);
+  const FrictionTable copy = table;
+  EXPECT_EQ(copy.beyond_pressures().largest, 1000.);
+  EXPECT_EQ(table.n_beyond_cut_heights(), 0u);
+  const unsigned warnings = log::n_warnings();
+  table.warn_of_look_ups_beyond();
+  EXPECT_EQ(log::n_warnings(), warnings + 2); // one for each of these axes
   EXPECT_EQ(table.advance(bottom, 100., 0., 0.1), bottom);
   EXPECT_EQ(table.advance(bottom - 1., 100., 0., 0.1), bottom - 1.);
   const auto film = table.film(bottom - 1.);
