@@ -82,7 +82,8 @@ namespace tribodraw
     public:
       Build(const PairDescription &p, const std::function<void(double)> &report_progress)
           : pair(p), axes(p.axes), heights(p.sheet), film_heights(sum_of_heights(p.sheet, p.tool)),
-            reference_sq(combined_sq(heights, p.tool)), law(p.flattening->with_spacing_of(p.sheet)),
+            reference_sq(combined_sq(heights, p.tool)),
+            flattest(heights.cut_height_for_contact_fraction(largest_contact_fraction)), law(p.flattening->with_spacing_of(p.sheet)),
             progress(report_progress)
       {
         if (p.flattening->needs_spacing())
@@ -112,6 +113,7 @@ namespace tribodraw
       const HeightDistribution          heights;      // of the sheet
       const HeightDistribution          film_heights; // of sheet + tool: the gap
       const double                      reference_sq;
+      const double                      flattest; // cut height at which the sheet counts as flat
       const Flattening                  law;
       const std::function<void(double)> progress;
       FrictionTable                     table;
@@ -152,14 +154,18 @@ namespace tribodraw
                         std::abs(film_heights.mean_gap(s) - film_heights.mean_gap(other)) / reference_sq);
       }
 
-      /// Cut heights at all strains for each pressure.
+      /// Cut heights at all strains for each pressure, down to a flat sheet.
       std::vector<std::vector<double>>
       cut_heights(const std::vector<double> &pressures, const std::vector<double> &strains) const
       {
         std::vector<std::vector<double>> result(pressures.size());
         parallel::for_range(pressures.size(), 1, [&](const std::size_t begin, const std::size_t end) {
           for (std::size_t i = begin; i < end; ++i)
-            result[i] = flattening().monotone_cut_heights(heights, *pair.hardening, pressures[i], strains);
+            {
+              result[i] = flattening().monotone_cut_heights(heights, *pair.hardening, pressures[i], strains);
+              for (double &s : result[i])
+                s = std::max(s, flattest);
+            }
         });
         return result;
       }
@@ -253,7 +259,7 @@ namespace tribodraw
             {
               monotone[i * strains.size() + j] = s[i][j];
               normal[i * strains.size() + j]
-                  = flattening().cut_height_under_load(heights, pressures[i], strength(strains[j]));
+                  = std::max(flattest, flattening().cut_height_under_load(heights, pressures[i], strength(strains[j])));
             }
         // Neighbouring pressures may end on one pixel, in either order by round-off.
         for (std::size_t i = 1; i < pressures.size(); ++i)
@@ -270,13 +276,15 @@ namespace tribodraw
         table.sq                 = reference_sq;
         table.initial_cut_height = heights.highest();
         const double lowest      = table.cut_height_monotone.values().back(); // largest pressure and strain
-        if (const double alpha = heights.contact_fraction(lowest); alpha > largest_contact_fraction)
+        if (table.cut_height_monotone.values().front() <= flattest)
           throw InputError(describe_error(
-              "The sheet surface is pressed flat at the largest pressure and strain",
-              "`Friction table/Pressures` and `/Strains`",
-              "contact fraction " + units::number(alpha) + " at " + units::format(axes.pressures.back(), "MPa")
-                  + " and strain " + units::number(axes.strains.back()),
-              "at most " + units::number(largest_contact_fraction), "Lower the largest pressure or strain."));
+              "The sheet surface is pressed flat at every pressure and strain of the table",
+              "`Friction table/Pressures`", "from " + units::format(axes.pressures.front(), "MPa") + " on",
+              "a contact fraction of at most " + units::number(largest_contact_fraction) + " at the smallest",
+              "Add smaller pressures."));
+        if (lowest <= flattest)
+          log::info("Friction table: at its largest pressures and strains the sheet is flat (contact fraction "
+                    + units::number(largest_contact_fraction) + ").");
         // A little below the lowest state, so that interpolated states stay inside.
         const double margin = 0.05 * (heights.highest() - lowest);
         const double bottom

@@ -81,7 +81,8 @@ namespace tribodraw
     if (const unsigned long n = n_beyond_cut_heights(); n > 0)
       log::warning(std::to_string(n) + " look-ups in the friction table flattened the sheet to its largest contact fraction, "
                    + units::number(max_contact_fraction())
-                   + ", within its pressures and strains. Extend 'Friction table/Pressures' or 'Friction table/Strains'.");
+                   + ", and took the values there. If the sheet is not flat then, extend 'Friction table/Pressures' or "
+                     "'Friction table/Strains'.");
   }
 
   double

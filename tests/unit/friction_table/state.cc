@@ -145,6 +145,26 @@ TEST(FrictionTableState, CountsWhatIsOutside)
   EXPECT_EQ(table.film(top + 1.).h_avg, table.film(top).h_avg);
 }
 
+// Pressures that press the sheet flat end on a contact fraction of 0.98 and change nothing below.
+TEST(FrictionTableState, EndsOnTheFlatSheet)
+{
+  auto       pair      = test::sample_pair(64);
+  const auto below     = build_friction_table(pair);
+  const auto n_strains = below.cut_height_monotone.axes()[1].points.size();
+  const auto n_values  = below.cut_height_monotone.values().size();
+  pair.axes.pressures.insert(pair.axes.pressures.end(), { 1000, 5000 });
+  const auto flat = build_friction_table(pair);
+  for (std::size_t i = 0; i < n_values; ++i)
+    EXPECT_EQ(flat.cut_height_monotone.values()[i], below.cut_height_monotone.values()[i]);
+  for (std::size_t i = 0; i < n_strains; ++i)
+    {
+      const double s = flat.cut_height_monotone.values()[n_values + n_strains + i];
+      EXPECT_NEAR(HeightDistribution(pair.sheet).contact_fraction(s), 0.98, 1e-3); // one of 4096 pixels
+    }
+  EXPECT_NO_THROW(flat.check("flat"));
+  EXPECT_LT(flat.max_contact_fraction(), 0.995);
+}
+
 // A model without flattening by strain: only the load matters.
 TEST(FrictionTableState, LoadAloneModels)
 {
