@@ -155,7 +155,7 @@ class Scripts(unittest.TestCase):
     def test_test_runs_ctest_with_its_arguments(self):
         self.stand_in("ctest", "exit 8")
         self.assertEqual(self.run_script("test", "-R", "units").returncode, 8)
-        self.assertEqual(self.called("ctest"), ["ctest -j 2 --output-on-failure -R units"])
+        self.assertEqual(self.called("ctest"), [f"ctest -j 2 --output-on-failure --output-junit {self.build}/verification/ctest.xml -R units"])
 
     def test_ci_turns_warnings_into_errors(self):
         self.stand_in("ctest", "")

@@ -1,6 +1,8 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/units.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +12,8 @@ using namespace tribodraw;
 
 namespace
 {
-  std::string message(const std::string &text, const std::string &unit)
+  std::string
+  message(const std::string &text, const std::string &unit)
   {
     try
       {
@@ -43,14 +46,16 @@ TEST(Units, ConvertToMmNMPaS)
 TEST(Units, FractionalExponents)
 {
   // c0 = 11.2 Pa^0.25 = 0.35418 MPa^0.25 (factor 10^-1.5)
-  EXPECT_NEAR(units::parse_quantity("11.2 Pa^0.25", "MPa^0.25"), 11.2 * std::pow(10., -1.5), 1e-15);
+  EXPECT_TRUE(claims::agrees("11.2 Pa^0.25 in MPa^0.25", "definitions of the SI",
+                             units::parse_quantity("11.2 Pa^0.25", "MPa^0.25"), 11.2 * std::pow(10., -1.5), 1e-15));
 }
 
 TEST(Units, BoltzmannOverActivationEnergyIsDimensionlessPerKelvin)
 {
   // k T / dG0 of the paper's Table 3: 8.617e-5 * 300 / 0.8
   const double k = units::parse_quantity("8.617e-5 eV/K", "J/K"), g = units::parse_quantity("0.8 eV", "J");
-  EXPECT_NEAR(k * 300. / g, 0.03231375, 1e-15);
+  EXPECT_TRUE(claims::agrees("k T over 0.8 eV at 300 K", "8.617e-5 eV/K times 300 K over 0.8 eV", k * 300. / g,
+                             0.03231375, 1e-15));
 }
 
 TEST(Units, MessagesNameTheMistake)

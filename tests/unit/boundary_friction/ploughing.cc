@@ -1,5 +1,7 @@
 #include <tribodraw/boundary_friction/ploughing.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +41,8 @@ TEST(Ploughing, Cone)
       const double slope = std::tan(degrees * pi / 180.);
       const auto   f     = revolve(
                 1., [&](double) { return slope; }, 0.);
-      EXPECT_NEAR(f.drag / f.support, mu, 6e-6);
+      EXPECT_TRUE(claims::agrees(claims::with("ploughing cone, friction at degrees", degrees), "(2/pi) tan(theta)",
+                                 f.drag / f.support, mu, 6e-6));
       EXPECT_NEAR(f.drag / f.support, 2. / pi * slope, 1e-5 * slope);
     }
 }
@@ -53,7 +56,8 @@ TEST(Ploughing, Sphere)
       const double th = degrees * pi / 180.;
       const auto   f  = revolve(
              std::sin(th), [](double r) { return r / std::sqrt(1. - r * r); }, 0.);
-      EXPECT_NEAR(f.drag / f.support, mu, 6e-6);
+      EXPECT_TRUE(claims::agrees(claims::with("ploughing sphere, friction at degrees", degrees),
+                                 "(2/pi)(th - sin th cos th)/sin^2 th", f.drag / f.support, mu, 6e-6));
       EXPECT_NEAR(f.drag / f.support, 2. / pi * (th - std::sin(th) * std::cos(th)) / std::pow(std::sin(th), 2), 2e-6);
     }
 }
@@ -65,7 +69,9 @@ TEST(Ploughing, Wedge)
     for (const double tau : { 0., 0.1, 0.5 })
       {
         const auto f = ploughing_traction(-std::tan(th), 0., 1., tau);
-        EXPECT_NEAR(f.drag / f.support, std::tan(th + std::atan(tau)), 1e-14);
+        EXPECT_TRUE(
+            claims::agrees(claims::with(claims::with("ploughing wedge, friction at angle", th) + ", shear", tau),
+                           "tan(th + atan(tau/p))", f.drag / f.support, std::tan(th + std::atan(tau)), 1e-14));
         EXPECT_EQ(f.lateral, 0.);
       }
 }

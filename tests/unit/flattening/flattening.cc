@@ -5,6 +5,8 @@
 #include <tribodraw/flattening/flattening.h>
 #include <tribodraw/material/hardening_law.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +80,9 @@ TEST(AsperityModels, NormalLoads)
     {
       EXPECT_NEAR(linear->normal_load(alpha, 1.), a, 6e-4);
       EXPECT_NEAR(pullen->normal_load(alpha, 1.), b, 1e-3 * b);
-      EXPECT_NEAR(wilson_sheu->normal_load(alpha, 1.), c, 6e-4);
+      EXPECT_TRUE(claims::agrees(claims::with("Wilson-Sheu, load over shear strength at contact fraction", alpha),
+                                 "Wilson and Sheu 1988, evaluated independently", wilson_sheu->normal_load(alpha, 1.),
+                                 c, 6e-4));
       EXPECT_NEAR(wilson_sheu->normal_load(alpha, 115.), 115. * wilson_sheu->normal_load(alpha, 1.), 1e-10);
     }
   // Pullen and Williamson 1972: the load H brings half the area into contact.
@@ -123,7 +127,9 @@ TEST(BulkStrain, StartsWhereTheLoadEnds)
 TEST(Flattening, IsolatedPlateausHaveThePrandtlHardness)
 {
   const Flattening flattening = with_strain(make_model("Wilson-Sheu"));
-  EXPECT_NEAR(flattening.hardness(1.), 5.142, 1e-6); // 2 * 2.571: 2 + pi of the slip-line field, rounded in the fit
+  EXPECT_TRUE(claims::agrees("hardness of an isolated plateau over shear strength",
+                             "Prandtl: 2 + pi, rounded in the fit", flattening.hardness(1.), 5.142,
+                             1e-6)); // 2 * 2.571: 2 + pi of the slip-line field, rounded in the fit
   EXPECT_NEAR(flattening.shear_strength(ConstantHardening(200.), 0.), 115.470054, 1e-6); // 200/sqrt(3)
 }
 
@@ -157,7 +163,11 @@ TEST(Flattening, SampleOfNormalLoadAndStrain)
             EXPECT_NEAR(found[i], expected[i], tolerance) << i;
         };
   compare(contact(5.), { .0084, .043, .064, .102 }, 6e-4);
-  compare(contact(10.), { .0170, .080, .119, .184 }, 6e-4);
+  const double with_strain_10[] = { .0170, .080, .119, .184 }, strain_10[] = { 0., .05, .1, .2 };
+  const auto   contact_10 = contact(10.);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_TRUE(claims::agrees(claims::with("contact fraction of a Gaussian sheet at 10 MPa and strain", strain_10[i]),
+                               "independent integration (printed digits)", contact_10[i], with_strain_10[i], 6e-4));
   compare(contact(20.), { .0341, .149, .216, .321 }, 6e-4);
 
   const auto s = flattening.monotone_cut_heights(heights, hardening, 5., { 0., .05, .1, .2 });

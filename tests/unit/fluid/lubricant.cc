@@ -2,6 +2,8 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/fluid/lubricant.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -48,9 +50,11 @@ namespace
 TEST(Lubricant, SuppliedFilmOfThePaper)
 {
   // Amount over density: 2.0, 1.0, 0.6 g/m^2 at 0.896 g/cm^3 are 2.2321, 1.1161, 0.6696 um.
-  EXPECT_NEAR(read(oil).supplied_film(), 2.2321e-3, 5e-8);
+  EXPECT_TRUE(claims::agrees("film of 2.0 g/m2 at 0.896 g/cm3, mm", "amount over density", read(oil).supplied_film(),
+                             2.2321e-3, 5e-8));
   EXPECT_NEAR(read(oil, { "Lubricant/Amount = 1.0 g/m^2" }).supplied_film(), 1.1161e-3, 5e-8);
-  EXPECT_NEAR(read(oil, { "Lubricant/Amount = 0.6 g/m^2" }).supplied_film(), 0.6696e-3, 5e-8);
+  EXPECT_TRUE(claims::agrees("film of 0.6 g/m2, mm", "amount over density",
+                             read(oil, { "Lubricant/Amount = 0.6 g/m^2" }).supplied_film(), 0.6696e-3, 5e-8));
 }
 
 TEST(Lubricant, AmountOfEachFace)

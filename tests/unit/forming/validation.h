@@ -1,6 +1,8 @@
 #ifndef tribodraw_tests_unit_forming_validation_h
 #define tribodraw_tests_unit_forming_validation_h
 
+#include "claims.h"
+
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/forming/increment_solver.h>
 

@@ -1,5 +1,7 @@
 #include "sample_pair.h"
 
+#include "claims.h"
+
 #include <tribodraw/base/log.h>
 
 #include <gtest/gtest.h>
@@ -72,8 +74,10 @@ TEST(FrictionTableState, IncrementsReproduceTheMonotoneLookUp)
       previous = at_points;
       if (n_points == 256)
         {
-          EXPECT_LT(at_points, 2e-3 * table.sq);
-          EXPECT_LT(between, 3e-3 * table.sq);
+          EXPECT_TRUE(claims::below("cut height of incremental flattening at the points of the table, over Sq",
+                                    "monotone look-up", at_points / table.sq, 2e-3));
+          EXPECT_TRUE(claims::below("the same between the points, over Sq", "integration on the map",
+                                    between / table.sq, 3e-3));
         }
     }
 }

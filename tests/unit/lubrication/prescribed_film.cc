@@ -4,6 +4,8 @@
 #include <tribodraw/lubrication/lubrication_settings.h>
 #include <tribodraw/lubrication/prescribed_film.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,11 +59,13 @@ TEST(PrescribedFilm, InclinedSliderOfInfiniteWidth)
       Case c;
       c.inlet      = std::to_string(2 * (1 + row[0])) + " um";
       const auto r = c.solve();
-      EXPECT_NEAR(r.load / (10 * pressure_unit), row[1], 2e-4 * row[1]);
+      EXPECT_TRUE(claims::agrees(claims::with("inclined slider, load, inlet over outlet - 1 =", row[0]),
+                                 "closed form (Reynolds)", r.load / (10 * pressure_unit), row[1], 2e-4 * row[1]));
       EXPECT_NEAR(r.max_pressure / pressure_unit, row[2], 2e-4 * row[2]);
       EXPECT_NEAR(r.x_max / 10, row[3], 1. / 240);
       EXPECT_NEAR(r.flow_out / (60 * 2e-3), row[4], 3e-4);
-      EXPECT_NEAR(r.friction_sheet / shear_unit, row[5], 2e-4 * row[5]);
+      EXPECT_TRUE(claims::agrees(claims::with("inclined slider, friction, inlet over outlet - 1 =", row[0]),
+                                 "closed form (Reynolds)", r.friction_sheet / shear_unit, row[5], 2e-4 * row[5]));
       // Balance of moments of the wedge: drag on sheet minus tool = int h dp/dx = -int p dh/dx = load times slope.
       EXPECT_NEAR((r.friction_sheet - r.friction_tool) / r.load, 2e-3 * row[0] / 10, 2e-6);
       EXPECT_NEAR(r.flow_in, r.flow_out, 1e-12);
@@ -77,7 +81,7 @@ TEST(PrescribedFilm, RayleighStep)
   c.model      = "step";
   const auto r = c.solve();
   EXPECT_NEAR(r.max_pressure / pressure_unit, 1. / 3, 1e-6);
-  EXPECT_NEAR(r.load / (10 * pressure_unit), 1. / 6, 1e-6);
+  EXPECT_TRUE(claims::agrees("Rayleigh step, load", "closed form: 1/6", r.load / (10 * pressure_unit), 1. / 6, 1e-6));
   EXPECT_NEAR(r.x_max, 5, 1e-5);
   c.inlet = "3.73206 um";
   c.step  = "7.1823 mm";
@@ -100,7 +104,9 @@ TEST(PrescribedFilm, SquareSliderOfFiniteWidth)
       const double coarse = c.solve().load;
       c.along = c.across = 80;
       const auto fine    = c.solve();
-      EXPECT_NEAR((fine.load + (fine.load - coarse) / 3) / (100 * pressure_unit), row[1], 4e-6);
+      EXPECT_TRUE(claims::agrees(claims::with("square slider of finite width, load, inlet um", row[0]),
+                                 "Richardson extrapolation of an independent solver",
+                                 (fine.load + (fine.load - coarse) / 3) / (100 * pressure_unit), row[1], 4e-6));
       EXPECT_NEAR(fine.flow_in, fine.flow_out + fine.flow_sides, 1e-12);
     }
 }
@@ -145,7 +151,7 @@ TEST(PrescribedFilm, EveryPassIsSeen)
       EXPECT_EQ(passes[i].number, i + 1);
       EXPECT_EQ(passes[i].n_gaps, 1u);
       EXPECT_EQ(passes[i].settled, i + 1 == passes.size());
-      EXPECT_NEAR(passes[i].least_gap, 2e-3, 1e-12); // the outlet film
+      EXPECT_NEAR(passes[i].least_gap, 2e-3, 1e-12);                  // the outlet film
       EXPECT_TRUE(i == 0 || passes[i].change < passes[i - 1].change); // a contraction
     }
   EXPECT_EQ(last, r.pressure); // what an interrupted run shows is the result
@@ -184,7 +190,7 @@ namespace
   {
     const std::string text = "set Task = film\nsubsection Gap\n" + gap + "end\nsubsection Process\n" + process
                              + "end\nsubsection Lubricant\nset Viscosity = " + viscosity + "\nend\n";
-    Parameters        parameters = Parameters::from_text(text);
+    Parameters parameters = Parameters::from_text(text);
     parameters.choice("Task", { "film" }, "");
     const PrescribedFilm film(parameters);
     parameters.finish();
@@ -202,7 +208,8 @@ namespace
                      + std::to_string(eccentricity) + "\nset Width = 1 mm\nend\n",
                  "set Sheet speed = 1000 mm/s\nset Cavitation = " + cavitation + "\n");
   }
-  constexpr double journal_load = 1e-8 * 1000 * 100 / (1e-2 * 1e-2), journal_pressure = 1e-8 * 1000 * 10 / (1e-2 * 1e-2);
+  constexpr double journal_load     = 1e-8 * 1000 * 100 / (1e-2 * 1e-2),
+                   journal_pressure = 1e-8 * 1000 * 10 / (1e-2 * 1e-2);
 } // namespace
 
 // Infinitely long journal bearing. Full Sommerfeld: W* = 12 pi e/((2 + e^2) sqrt(1 - e^2)), attitude 90 degrees. Half
@@ -220,11 +227,16 @@ TEST(PrescribedFilm, JournalBearing)
       const int  n    = 720;
       const auto full = journal(x.e, "none", n), half = journal(x.e, "cut off", n), film = journal(x.e, "Reynolds", n),
                  jfo = journal(x.e, "mass conserving", n);
-      EXPECT_NEAR(full.load / journal_load, x.full, 3e-4 * x.full);
+      EXPECT_TRUE(claims::agrees(claims::with("journal bearing, load, Sommerfeld, eccentricity", x.e), "closed form",
+                                 full.load / journal_load, x.full, 3e-4 * x.full));
       EXPECT_NEAR(full.attitude * 180 / M_PI, 90., 0.02);
       EXPECT_NEAR(half.load / journal_load, x.half, 3e-4 * x.half);
-      EXPECT_NEAR(film.load / journal_load, x.reynolds, 3e-4 * x.reynolds);
-      EXPECT_NEAR(film.attitude * 180 / M_PI, x.attitude, 0.03);
+      EXPECT_TRUE(claims::agrees(claims::with("journal bearing, load, Reynolds (Swift-Stieber), eccentricity", x.e),
+                                 "closed form with the root of the rupture", film.load / journal_load, x.reynolds,
+                                 3e-4 * x.reynolds));
+      EXPECT_TRUE(claims::agrees(claims::with("journal bearing, attitude in degrees, Reynolds, eccentricity", x.e),
+                                 "closed form with the root of the rupture", film.attitude * 180 / M_PI, x.attitude,
+                                 0.03));
       EXPECT_NEAR(film.max_pressure / journal_pressure, x.pressure, 3e-4 * x.pressure);
       EXPECT_NEAR(film.rupture_x / 10 * 180 / M_PI, x.rupture, 360. / n);
       // With a flooded inlet at the widest gap the pressure of the mass-conserving film is Reynolds'; here the flow
@@ -238,18 +250,21 @@ TEST(PrescribedFilm, JournalBearing)
   const double exact  = 12 * M_PI * 0.5 / (2.25 * std::sqrt(0.75));
   const double coarse = journal(0.5, "none", 90).load / journal_load - exact,
                fine   = journal(0.5, "none", 180).load / journal_load - exact;
-  EXPECT_NEAR(std::log2(coarse / fine), 2., 0.1);
+  EXPECT_TRUE(
+      claims::agrees("journal bearing, order in the element size", "closed form", std::log2(coarse / fine), 2., 0.1));
 }
 
 // Parallel pocket: exact piecewise solution, see test FilmTransport.parallel_pocket_with_jump_of_the_gap.
 TEST(PrescribedFilm, ParallelPocket)
 {
-  const auto r = solve("set Model = pocket\nset Sides = no flow\nset Elements across = 1\nset Elements along = 400\n"
-                       "set Smallest element at jumps = 0.01\nsubsection Pocket\nset Land film = 1 um\nset Pocket film = "
-                       "1.4 um\nset Length = 20 mm\nset Width = 1 mm\nset Pocket start = 4 mm\nset Pocket end = 10 mm\n"
-                       "end\n",
-                       "set Sheet speed = 1000 mm/s\nset Ambient pressure = 0.1 MPa\nset Cavitation = mass conserving\n");
-  EXPECT_NEAR(r.load, 2.45701, 1e-3 * 2.45701); // N for 1 mm
+  const auto r
+      = solve("set Model = pocket\nset Sides = no flow\nset Elements across = 1\nset Elements along = 400\n"
+              "set Smallest element at jumps = 0.01\nsubsection Pocket\nset Land film = 1 um\nset Pocket film = "
+              "1.4 um\nset Length = 20 mm\nset Width = 1 mm\nset Pocket start = 4 mm\nset Pocket end = 10 mm\n"
+              "end\n",
+              "set Sheet speed = 1000 mm/s\nset Ambient pressure = 0.1 MPa\nset Cavitation = mass conserving\n");
+  EXPECT_TRUE(claims::agrees("parallel pocket with mass-conserving cavitation, load in N", "exact piecewise solution",
+                             r.load, 2.45701, 1e-3 * 2.45701)); // N for 1 mm
   EXPECT_NEAR(r.max_pressure, 0.35, 0.01 * 0.35);
   EXPECT_NEAR(r.x_max, 10., 1e-4);
   EXPECT_NEAR(r.flow_in, 0.500208333, 1e-7);
@@ -259,22 +274,24 @@ TEST(PrescribedFilm, ParallelPocket)
   for (std::size_t i = 0; i < r.nodes.size(); ++i)
     if (std::abs(r.nodes[i][0] - 7) < 0.03)
       fraction = r.fill[i];
-  EXPECT_NEAR(fraction, 0.714583, 1e-5);
+  EXPECT_TRUE(claims::agrees("parallel pocket, film fraction in the cavity", "exact piecewise solution", fraction,
+                             0.714583, 1e-5));
 }
 
-// Squeeze films (Stefan): strip of length B W = eta V B^3/h^3 per width; disc W = 3 pi eta V R^4/(2 h^3), and the time of
-// fall under a load 3 pi eta R^4/(4 W) (1/h2^2 - 1/h1^2).
+// Squeeze films (Stefan): strip of length B W = eta V B^3/h^3 per width; disc W = 3 pi eta V R^4/(2 h^3), and the time
+// of fall under a load 3 pi eta R^4/(4 W) (1/h2^2 - 1/h1^2).
 TEST(PrescribedFilm, SqueezeFilms)
 {
   const std::string press = "set Sheet speed = 0 mm/s\nset Approach speed = 1 mm/s\n";
   const auto        strip = [&](const int n) {
     return solve("set Model = parallel\nset Sides = no flow\nset Elements across = 2\nset Elements along = "
-                            + std::to_string(n) + "\nsubsection Parallel\nset Film = 20 um\nset Length = 8 mm\nset Width = 1 mm\nend\n",
+                            + std::to_string(n)
+                            + "\nsubsection Parallel\nset Film = 20 um\nset Length = 8 mm\nset Width = 1 mm\nend\n",
                         press)
                .load
            / (1e-8 * 512 / 8e-6); // eta V B^3/h^3
   };
-  EXPECT_NEAR(strip(64), 1., 1e-3);
+  EXPECT_TRUE(claims::agrees("squeeze of a strip, load over eta V B^3/h^3", "Stefan", strip(64), 1., 1e-3));
   EXPECT_NEAR(std::log2((1 - strip(64)) / (1 - strip(128))), 2., 0.1);
 
   const auto disc = [&](const int n, const std::string &more) {
@@ -284,9 +301,11 @@ TEST(PrescribedFilm, SqueezeFilms)
   };
   const double load = 1.5 * M_PI * 1e-8 * 625 / 8e-6;
   EXPECT_NEAR(disc(60, "").load, load, 5e-3 * load);
-  EXPECT_NEAR(disc(120, "").load, load, 1.3e-3 * load);
+  EXPECT_TRUE(claims::agrees("squeeze of a disc, load in N", "Stefan: 3 pi eta V R^4/(2 h^3)", disc(120, "").load, load,
+                             1.3e-3 * load));
   const double time = 0.75 * M_PI * 1e-8 * 625 / 2. * (1. / 25e-6 - 1. / 400e-6); // 2 N, 20 to 5 um
-  EXPECT_NEAR(disc(120, "set Load = 2 N\nset Final gap = 5 um\n").fall_time, time, 1.3e-3 * time);
+  EXPECT_TRUE(claims::agrees("fall of a disc, time in s", "Stefan",
+                             disc(120, "set Load = 2 N\nset Final gap = 5 um\n").fall_time, time, 1.3e-3 * time));
 }
 
 TEST(PrescribedFilm, ShippedFilesOfPublishedCases)

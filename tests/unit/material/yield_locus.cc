@@ -2,7 +2,9 @@
 
 #include <tribodraw/base/errors.h>
 
+#include "claims.h"
 #include <Eigen/Eigenvalues>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -89,7 +91,10 @@ TEST(Vegter, equivalent_stress_of_the_interpolated_construction)
                                   { { -.4, .7, -.25 }, 1.11558721 },
                                   { { .8, .75, .05 }, 0.69593237 } };
   for (const auto &r : reference)
-    EXPECT_NEAR(locus->equivalent_stress(r.stress), r.value, 1e-8) << r.stress.transpose();
+    EXPECT_TRUE(claims::agrees(
+        claims::with(claims::with("Vegter, equivalent stress at", r.stress[0]) + ",", r.stress[1]),
+        "independent script with Table 2 of Shisode et al. 2021", locus->equivalent_stress(r.stress), r.value, 1e-8))
+        << r.stress.transpose();
   Vector3 n;
   Matrix3 H;
   locus->evaluate({ 1, 0, 0 }, n, H);

@@ -1,3 +1,5 @@
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +24,17 @@ namespace
              const Row &last, const double tolerance)
   {
     for (std::size_t m = 0; m < measures.size(); ++m)
-      EXPECT_NEAR(analysis.displacement(measures[m]), row.displacements[m], tolerance * std::abs(last.displacements[m]))
-          << "load factor " << row.factor << ", column " << m;
+      if (&row == &last || row.factor == last.factor) // the page has the last row of each table
+        EXPECT_TRUE(
+            claims::agrees(claims::with(std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())
+                                            + ", largest load, column",
+                                        static_cast<double>(m + 1)),
+                           "Sze, Liu, Lo 2004", analysis.displacement(measures[m]), row.displacements[m],
+                           tolerance * std::abs(last.displacements[m])));
+      else
+        EXPECT_NEAR(analysis.displacement(measures[m]), row.displacements[m],
+                    tolerance * std::abs(last.displacements[m]))
+            << "load factor " << row.factor << ", column " << m;
   }
 
   void
@@ -179,7 +190,8 @@ TEST(LargeRotationBenchmark, HingedRoofSnapsThrough)
   const auto    m    = hinged_roof(16, 12.7, GridPattern::alternating);
   const Turning turn = follow(*m, m->at({ 0, 0, 2540 }, 2, -1), 26, 5, 12);
   ASSERT_EQ(turn.of_load.size(), 2u);
-  EXPECT_NEAR(turn.of_load[0].factor, 0.7421, 1e-2 * 0.7421);
+  EXPECT_TRUE(claims::agrees("hinged roof, upper limit load", "Sze, Liu, Lo 2004", turn.of_load[0].factor, 0.7421,
+                             1e-2 * 0.7421));
   EXPECT_NEAR(turn.of_load[1].factor, 0.1729, 1e-2 * 0.7421);
   EXPECT_NEAR(turn.of_load[0].displacement, 11.293, 0.5);
   EXPECT_NEAR(turn.of_load[1].displacement, 19.852, 0.5);
@@ -193,7 +205,8 @@ TEST(LargeRotationBenchmark, ThinHingedRoofSnapsBack)
   const Turning turn = follow(*m, m->at({ 0, 0, 2540 }, 2, -1), 28, 5, 12);
   ASSERT_EQ(turn.of_load.size(), 2u);
   EXPECT_NEAR(turn.of_load[0].factor, 0.1953, 1e-2 * 0.1953);
-  EXPECT_NEAR(turn.of_load[1].factor, -0.1288, 1e-2 * 0.1953);
+  EXPECT_TRUE(claims::agrees("thin hinged roof, lower limit load", "Sze, Liu, Lo 2004", turn.of_load[1].factor, -0.1288,
+                             1e-2 * 0.1953));
   ASSERT_EQ(turn.of_displacement.size(), 2u);
   EXPECT_NEAR(turn.of_displacement[0].displacement, 17.0, 1e-2 * 17);
   EXPECT_NEAR(turn.of_displacement[1].displacement, 14.45, 1e-2 * 17);

@@ -1,5 +1,7 @@
 #include <tribodraw/base/parameters.h>
 
+#include "claims.h"
+
 #include <gtest/gtest.h>
 
 #include "benchmarks_plates.h"
@@ -225,8 +227,10 @@ TEST(PlasticBending, Dc04Sheet)
       // Where the elastic core is thick (R = 100 mm) its border lies between the points: 8 instead of 6.
       const Bending b = bend(c.radius, dc04(), c.radius > 50 ? 8 : 6, Rule::halves, c.stretch);
       EXPECT_NEAR(b.radius, c.radius, 1e-3 * c.radius); // the stretch is an estimate
-      EXPECT_NEAR(b.moment, c.moment, 5e-3 * c.moment) << "R = " << c.radius;
-      EXPECT_NEAR(b.free_radius, c.free_radius, 5e-3 * c.free_radius) << "R = " << c.radius;
+      EXPECT_TRUE(claims::agrees(claims::with("DC04 sheet bent, moment in N, radius", c.radius),
+                                 "integration over 61 points", b.moment, c.moment, 5e-3 * c.moment));
+      EXPECT_TRUE(claims::agrees(claims::with("DC04 sheet bent, radius in mm after springback, radius", c.radius),
+                                 "integration over 61 points", b.free_radius, c.free_radius, 5e-3 * c.free_radius));
     }
 }
 
@@ -256,11 +260,13 @@ TEST(LimitLoad, CircularPlates)
   const double supported = circular_limit_exact(false), clamped = circular_limit_exact(true);
   EXPECT_NEAR(supported, 6.51, 0.01);
   EXPECT_NEAR(clamped, 12.5, 0.06);
-  EXPECT_NEAR(circular_limit(24, false), supported, 2e-3 * supported);
+  EXPECT_TRUE(claims::agrees("limit load of a supported circular plate, p R^2/M_p", "Hopkins, Wang 1955",
+                             circular_limit(24, false), supported, 2e-3 * supported));
   // Elements are an upper bound that smears the hinge at the clamped rim over the last ring.
   const double coarse = circular_limit(8, true), fine = circular_limit(24, true);
   EXPECT_GT(fine, clamped);
-  EXPECT_NEAR(fine, clamped, 5e-3 * clamped);
+  EXPECT_TRUE(claims::agrees("limit load of a clamped circular plate, p R^2/M_p", "Hopkins, Wang 1955", fine, clamped,
+                             5e-3 * clamped));
   EXPECT_GT(std::log((coarse - clamped) / (fine - clamped)) / std::log(3.), 1.2);
 }
 
@@ -293,7 +299,7 @@ TEST(LimitLoad, TubeUnderInternalPressure)
   m.loads.add_pressure(m.surface.mesh, 1);
   const double limit = limit_load(m, { 0, 0, R }, 20e-5 * R);
   const double exact = 2 / std::sqrt(3.) * std::log((R + t / 2) / (R - t / 2));
-  EXPECT_NEAR(limit, exact, 1e-3 * exact);
+  EXPECT_TRUE(claims::agrees("limit pressure of a tube", "2/sqrt(3) sigma_Y ln(b/a)", limit, exact, 1e-3 * exact));
 }
 
 // Elastic-plastic shells with large displacement on coarse meshes; the fine ones are in doc/verification.md.
@@ -319,7 +325,8 @@ TEST(PlasticShell, PinchedCylinder)
     last_w     = a.displacement(w);
   });
   analysis.to_displacement(w, 20.6, 1, 4);
-  EXPECT_NEAR(analysis.factor(), 394, 0.03 * 394);
+  EXPECT_TRUE(claims::agrees("elastic-plastic pinched cylinder, force at 20.6 mm", "quadratic solids (CalculiX)",
+                             analysis.factor(), 394, 0.03 * 394));
   analysis.to_displacement(w, 30.1, 1, 4);
   EXPECT_NEAR(analysis.factor(), 554, 0.03 * 554);
   // The work of the force is stored or dissipated.

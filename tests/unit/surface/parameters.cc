@@ -10,8 +10,10 @@
 #include <tribodraw/surface/random_field.h>
 #include <tribodraw/surface/slopes.h>
 
+#include "claims.h"
 #include <algorithm>
 #include <cmath>
+
 #include <gtest/gtest.h>
 #include <set>
 
@@ -68,7 +70,8 @@ TEST(Autocorrelation, OfASineIsItsCosine)
   EXPECT_NEAR(acf(-13, 3), std::cos(2 * pi * 13 / 100), 1e-12);
   const auto s = spatial_parameters(map);
   ASSERT_TRUE(s.length_x);
-  EXPECT_NEAR(*s.length_x, 0.2 * std::acos(0.2) / (2 * pi), 2 * pi / 100 / 8 * map.dx);
+  EXPECT_TRUE(claims::agrees("autocorrelation length of a sine, mm", "wavelength acos(0.2)/(2 pi)", *s.length_x,
+                             0.2 * std::acos(0.2) / (2 * pi), 2 * pi / 100 / 8 * map.dx));
   EXPECT_FALSE(s.length_y); // constant along y
   EXPECT_FALSE(s.peklenik);
   EXPECT_FALSE(s.str);

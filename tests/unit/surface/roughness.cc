@@ -2,7 +2,9 @@
 #include <tribodraw/base/errors.h>
 #include <tribodraw/surface/roughness.h>
 
+#include "claims.h"
 #include <cmath>
+
 #include <gtest/gtest.h>
 
 using namespace tribodraw;
@@ -35,9 +37,10 @@ TEST(Roughness, SineHasTheAnalyticMoments)
   // points per wave is A * (2/N) / sin(pi/N) exactly.
   const double amplitude = 2e-3;
   const auto   r         = roughness(sine(400, 10, 2, amplitude, 0.7));
-  EXPECT_NEAR(r.sq, amplitude / std::sqrt(2.), 1e-12 * amplitude);
+  EXPECT_TRUE(
+      claims::agrees("Sq of a sine over its amplitude", "1/sqrt(2)", r.sq / amplitude, 1 / std::sqrt(2.), 1e-12));
   EXPECT_NEAR(r.ssk, 0., 1e-10);
-  EXPECT_NEAR(r.sku, 1.5, 1e-10);
+  EXPECT_TRUE(claims::agrees("Sku of a sine", "closed form", r.sku, 1.5, 1e-10));
   EXPECT_NEAR(r.sa, amplitude * (2. / 200) / std::sin(pi / 200), 1e-12 * amplitude);
   EXPECT_NEAR(r.sp, amplitude * std::cos(pi / 200), 1e-12 * amplitude); // highest sample: half a pixel beside the peak
   EXPECT_NEAR(r.sv, r.sp, 1e-12 * amplitude);
@@ -50,7 +53,8 @@ TEST(Roughness, SaOfTheSineConvergesWithSecondOrder)
   double error[2];
   for (const int i : { 0, 1 })
     error[i] = std::abs(roughness(sine(i ? 64 : 32, 4, 1, 1e-3)).sa / (2e-3 / pi) - 1.);
-  EXPECT_NEAR(std::log2(error[0] / error[1]), 2., 0.05);
+  EXPECT_TRUE(claims::agrees("order of Sa with the pixel", "closed form of the sine", std::log2(error[0] / error[1]),
+                             2., 0.05));
 }
 
 TEST(Roughness, TwoLevelsGiveTheMomentsOfABernoulliVariable)
