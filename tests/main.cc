@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 #include <mpi.h>
 
+#if defined(__SANITIZE_ADDRESS__)
+#  include <sanitizer/lsan_interface.h>
+#endif
+
 int
 main(int argc, char **argv)
 {
@@ -16,6 +20,9 @@ main(int argc, char **argv)
       ::testing::UnitTest::GetInstance()->listeners().default_result_printer());
   int failed = RUN_ALL_TESTS(), any = 0;
   MPI_Allreduce(&failed, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+#if defined(__SANITIZE_ADDRESS__)
+  __lsan_do_leak_check(); // now, because MPI unloads its plugins, and what they keep would look lost
+#endif
   MPI_Finalize();
   return any;
 }

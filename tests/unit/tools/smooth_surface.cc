@@ -66,7 +66,8 @@ namespace
     std::uniform_real_distribution<double> plan(-65, 65), height(-25, 20);
     for (;;)
       {
-        const Vector3d x(plan(random), plan(random), height(random));
+        const double   z = height(random), y = plan(random); // one after the other: the same points with every compiler
+        const Vector3d x(plan(random), y, z);
         if (x.head<2>().cwiseAbs().maxCoeff() > 25) // the middle of the opening is far from everything
           return x;
       }
@@ -76,7 +77,8 @@ namespace
   point_of_ball(std::mt19937 &random)
   {
     std::normal_distribution<double> any;
-    return 50 * Vector3d(any(random), any(random), any(random)).normalized();
+    const double z = any(random), y = any(random);
+    return 50 * Vector3d(any(random), y, z).normalized();
   }
 
   /// Within 0.5 mm of the surface, where contact happens.
@@ -397,5 +399,7 @@ TEST(SmoothSurface, AQueryTakesMicroseconds)
   const double each = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / static_cast<double>(points.size());
   std::printf("%.2f us CPU for a distance within 1 mm of the surface (mean %.3g mm)\n", 1e6 * each,
               sum / static_cast<double>(points.size()));
+#if !defined(__SANITIZE_ADDRESS__)
   EXPECT_LT(each, 2e-5);
+#endif
 }
