@@ -7,7 +7,8 @@ namespace tribodraw
 
   namespace
   {
-    /// Around the flat blank and half its length above and below. Not by the punch travel, which a resumed run may change.
+    /// Around the flat blank and half its length above and below. Not by the punch travel, which a resumed run may
+    /// change.
     Eigen::AlignedBox3d
     working_space(const Simulation &simulation)
     {
@@ -41,7 +42,13 @@ namespace tribodraw
     SurfaceFields fields;
     auto         &number = fields.cell_scalars["tool"];
     if (simulation.tools_away())
-      return fields;
+      {
+        // A triangle without area: ParaView complains about a file without points.
+        fields.points.assign(3, simulation.shell().committed().position.front());
+        fields.triangles = { { 0, 1, 2 } };
+        number           = { 0. };
+        return fields;
+      }
     if (shapes.empty())
       triangulate_all(simulation);
     const auto &tools = simulation.contact().tools();

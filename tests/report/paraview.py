@@ -12,6 +12,9 @@ CASES = {
     'drawing': (['prm/cross_die.prm', '--set', 'Coupling/Friction = constant', '--set', 'Coupling/Constant friction coefficient = 0.1',
                  '--set', 'Blank/Element size = 13 mm', '--set', 'Process/Punch travel = 4 mm', '--set', 'Output/Travel between fields = 2 mm'],
                 6, ['thinning', 'friction_coefficient_die', 'contact_pressure_punch']),
+    'unloaded': (['prm/cross_die.prm', '--set', 'Coupling/Friction = constant', '--set', 'Coupling/Constant friction coefficient = 0.1',
+                  '--set', 'Blank/Element size = 13 mm', '--set', 'Process/Punch travel = 2 mm', '--set', 'Process/Unloading = tools removed'],
+                 6, ['thinning', 'friction_coefficient_punch']),
     'film': (['prm/squeeze_film.prm', '--set', 'Gap/Elements along = 20'], 3, ['lubricant_pressure', 'film_thickness']),
     'sheet': (['prm/shell_limit_load.prm'], 3, ['displacement', 'largest_plastic_strain']),
 }

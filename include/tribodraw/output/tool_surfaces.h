@@ -11,7 +11,8 @@ namespace tribodraw
   class ToolSurfaces
   {
   public:
-    /// Where the tools are now, with their numbers as element field `tool`; without triangles once they are taken away.
+    /// Where the tools are now, with their numbers as element field `tool`; a single triangle without area once they
+    /// are taken away.
     SurfaceFields at_present(const Simulation &simulation);
 
   private:
