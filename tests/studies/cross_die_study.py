@@ -150,12 +150,14 @@ def place_of_the_peak(study):
                              *(f"{x:.1f}" for x in fields.place[top])])
             if 24 <= travel <= 40:
                 drawing.append(tops)
-        at_fillet = {where: sum(t[where][2] == "re-entrant fillet" for t in drawing) for where in ("anywhere", "radius")}
+        at_fillet = sum(t["radius"][2] == "re-entrant fillet" for t in drawing)
+        on_radius = sum(t["anywhere"][1] == "radius" for t in drawing)
         greatest = max((t["radius"] for t in drawing), key=lambda t: t[0])
-        study.claim(f"2.0 g/m2, {rule}, 24-40 mm: peak over the die radius at the re-entrant fillet of the die",
-                    f"{at_fillet['radius']} of {len(drawing)} steps, to {greatest[0]:.1f} MPa", at_fillet["radius"] == len(drawing))
-        study.claim(f"2.0 g/m2, {rule}, 24-40 mm: the peak of the whole die side is there",
-                    f"{at_fillet['anywhere']} of {len(drawing)} steps", at_fillet["anywhere"] == len(drawing) if name == "paper2.0" else None)
+        study.claim(f"2.0 g/m2, {rule}, 24-40 mm: the peak of the whole die side lies on the die radius", f"{on_radius} of {len(drawing)} steps",
+                    on_radius == len(drawing) if name == "paper2.0" else None)
+        study.claim(f"2.0 g/m2, {rule}, 24-40 mm: greatest pressure on the die radius at the re-entrant fillet of the die",
+                    f"{greatest[0]:.1f} MPa, {greatest[2]}; peak of the radius there in {at_fillet} of {len(drawing)} steps",
+                    greatest[2] == "re-entrant fillet")
         last = [r for r in rows if r[0] == name and r[2] == "anywhere" and float(r[1]) > 40]
         study.claim(f"2.0 g/m2, {rule}, beyond 40 mm: place of the peak", "; ".join(sorted({f"{r[4]}, {r[5]}" for r in last})) +
                     f", to {max(float(r[3]) for r in last):.1f} MPa", None)

@@ -50,10 +50,11 @@ def run(name, increment, travel):
     with open(output / 'history.csv') as file:
         rows = list(csv.DictReader(file))
     mechanics = sum(wall.get(s, 0.) for s in ('shell/assemble', 'contact/assemble', 'forming/linear solver'))
-    force = [float(r['punch_force_n']) for r in rows if float(r['punch_travel_mm']) > 0]
+    points = [(float(r['punch_travel_mm']), float(r['punch_force_n'])) for r in rows]
+    work = sum(0.5 * (b - a) * (fa + fb) for (a, fa), (b, fb) in zip(points, points[1:]))
     return {'time': after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
             'film': wall.get('forming/friction coupling', 0.) / mechanics,
-            'iterations': sum(int(r['newton_iterations']) for r in rows), 'force': sum(force) / len(force)}
+            'iterations': sum(int(r['newton_iterations']) for r in rows), 'force': work / points[-1][0]}
 
 
 run('staggered', 1, 0.1)  # makes the friction table, which the other runs find
