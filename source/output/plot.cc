@@ -72,15 +72,28 @@ namespace tribodraw::plot
              + gnuplot::quote(y) + "\nset tics nomirror out\nset border 3\n";
     }
 
-    /// 1, 2 or 5 times a power of ten, so that a range has at most six tics.
+    /// 1, 2 or 5 times a power of ten, at most @p n of which fit into a range.
     double
-    tic_distance(const double range)
+    tic_distance(const double range, const double n = 5)
     {
-      const double power = std::pow(10., std::floor(std::log10(range / 5)));
+      const double power = std::pow(10., std::floor(std::log10(range / n)));
       for (const double factor : { 1., 2., 5. })
-        if (factor * power * 5 >= range)
+        if (factor * power * n >= range)
           return factor * power;
       return 10 * power;
+    }
+
+    /// Tics of a colour bar of that length in points: where there is no room for more, both ends.
+    std::string
+    bar_tics(const std::pair<double, double> &range, const double length)
+    {
+      if (length > 120)
+        return "set cbtics " + units::number(tic_distance(range.second - range.first, std::min(length / 40, 7.)))
+               + "\n";
+      char tics[100];
+      std::snprintf(tics, sizeof tics, "set cbtics ('%.3g' %.17g, '%.3g' %.17g)\n", range.first, range.first,
+                    range.second, range.second);
+      return tics;
     }
 
     /// Steps of colour with the names of the classes; nothing if the values are a quantity.
@@ -239,11 +252,15 @@ namespace tribodraw::plot
     const double dx = (raster.x_max - raster.x_min) / raster.nx, dy = (raster.y_max - raster.y_min) / raster.ny;
     const auto   text = [](const double v) { return units::number(v); };
 
+    const double aspect = (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
+
     std::ostringstream script;
     script << axis_titles(chart.title, chart.x_label, chart.y_label) << palette() << "set size ratio -1\nset xrange ["
            << text(raster.x_min) << ':' << text(raster.x_max) << "]\nset yrange [" << text(raster.y_min) << ':'
-           << text(raster.y_max) << "]\nset xtics " << text(tic_distance(raster.x_max - raster.x_min)) << "\nset ytics " << text(tic_distance(raster.y_max - raster.y_min)) << "\nset cbrange [" << text(bar.first) << ':' << text(bar.second) << "]\n"
-           << class_palette(chart.classes)
+           << text(raster.y_max) << "]\nset xtics " << text(tic_distance(raster.x_max - raster.x_min)) << "\nset ytics "
+           << text(tic_distance(raster.y_max - raster.y_min)) << "\nset cbrange [" << text(bar.first) << ':'
+           << text(bar.second) << "]\n"
+           << (classes ? class_palette(chart.classes) : bar_tics(range, aspect * width))
            << "set format cb '%g'\nset lmargin at screen 0.18\nset rmargin at screen 0.77\nset cblabel "
            << gnuplot::quote(chart.value_label) << " offset 1.5,0"
            << "\nset colorbox\nplot " << gnuplot::quote((folder.path() / "pixels").string()) << " binary array=("
@@ -262,7 +279,6 @@ namespace tribodraw::plot
                << " using 1:2 with lines lw 1 lc rgb '#808080' notitle";
       }
     // The field has the width between the margins above; title and labels need the rest of the height.
-    const double   aspect = (raster.y_max - raster.y_min) / (raster.x_max - raster.x_min);
     const unsigned height = static_cast<unsigned>(std::clamp((0.77 - 0.18) * width * aspect + 110, 180., 800.));
     return gnuplot::draw(folder, script.str(), width, height, stem);
   }

@@ -34,7 +34,7 @@ figure svg{width:100%;height:auto;color:var(--text)}figcaption{color:var(--soft)
 pre{margin:0;padding:.75rem;background:var(--card);border:1px solid var(--line);border-radius:.5rem;overflow-x:auto;white-space:pre-wrap;font:13px/1.45 ui-monospace,monospace}
 .warnings li{color:var(--warn)}
 a{color:var(--accent)}
-@media(max-width:30rem){body{padding:.75rem}figure{padding:.4rem}}
+@media(max-width:30rem){body{padding:.75rem}figure{padding:.4rem}.tiles{grid-template-columns:1fr 1fr}}
 @media print{nav{display:none}body{max-width:none;padding:0;font-size:10pt}figure,pre,.tile{background:none}pre{font-size:8pt}.figures{grid-template-columns:1fr 1fr}.tiles{grid-template-columns:repeat(4,1fr)}.inputs{columns:2}}
 )";
 

@@ -40,12 +40,25 @@ namespace tribodraw::report
       return after != text.c_str() && *after == '\0' ? std::optional<double>(value) : std::nullopt;
     }
 
+    /// A unit of our files as one writes it.
+    std::string
+    written(std::string unit)
+    {
+      if (unit == "1" || unit == "-")
+        return "";
+      for (const auto &[plain, sign] :
+           { std::pair<std::string, std::string>{ "um", "µm" }, { "^2", "²" }, { "^3", "³" } })
+        for (auto at = unit.find(plain); at != std::string::npos; at = unit.find(plain, at + sign.size()))
+          unit.replace(at, plain.size(), sign);
+      return unit;
+    }
+
     Value
     readable(const std::string &quantity, const double value, const std::string &unit)
     {
       if (unit == "N" && std::abs(value) >= 1e3)
         return { quantity, readable(1e-3 * value), "kN" };
-      return { quantity, readable(value), unit == "1" ? "" : unit };
+      return { quantity, readable(value), written(unit) };
     }
 
     /// A name of a file's column as one reads it: `draw_in_x` -> "Draw in x".
@@ -138,13 +151,13 @@ namespace tribodraw::report
           if (name == "necked" || name == "converged")
             values.push_back({ spoken(name), value == 0. ? "no" : "yes", "" });
           else if (!value)
-            values.push_back({ spoken(name), rows[i][1], rows[i][2] });
+            values.push_back({ spoken(name), rows[i][1], written(rows[i][2]) });
           else if (ends_with(name, "_x") && i + 1 < rows.size() && rows[i + 1].size() >= 3 && number_in(rows[i + 1][1])
                    && rows[i + 1][0] == name.substr(0, name.size() - 1) + "y")
             {
               // two coordinates in one row
               values.push_back({ spoken(name.substr(0, name.size() - 2)) + " x, y",
-                                 readable(*value) + ", " + readable(*number_in(rows[i + 1][1])), rows[i][2] });
+                                 readable(*value) + ", " + readable(*number_in(rows[i + 1][1])), written(rows[i][2]) });
               ++i;
             }
           else
