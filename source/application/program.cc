@@ -248,7 +248,7 @@ namespace tribodraw
   }
 
   int
-  run_program(int argc, char **argv)
+  run_program(const int argc, char **argv)
   {
     // Without mpirun, Open MPI would start a daemon for processes that are never spawned: half a second, and an error where
     // no remote shell is installed. mpirun ignores this setting.
@@ -257,9 +257,13 @@ namespace tribodraw
     // just starting. A single process needs none.
     if (!getenv("OMPI_COMM_WORLD_SIZE"))
       setenv("OMPI_MCA_orte_create_session_dirs", "0", /*overwrite=*/0);
-    // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use.
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, dealii::numbers::invalid_unsigned_int);
-    const std::vector<std::string>                 words(argv + 1, argv + argc);
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    // deal.II starts MPI, Trilinos and as many threads as the cores that this process may use. Our options are not theirs: some
+    // releases of PETSc, which deal.II starts too, complain of what they do not know.
+    char *name_only[] = { argv[0], nullptr };
+    int   n_names     = 1;
+    char **names       = name_only;
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, dealii::numbers::invalid_unsigned_int);
     // Its own communicator, so that the wait of a failing rank meets nothing else.
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
