@@ -6,7 +6,7 @@ paraview.py --program tribodraw --source FOLDER [--pvpython pvpython] [--picture
 Every view must colour its field by a finite range over all steps, have a colour bar with a title and, in a drawing, the tools
 transparent; nothing may be complained about.
 """
-import argparse, json, os, pathlib, shutil, struct, subprocess, sys, tempfile
+import argparse, atexit, json, os, pathlib, shutil, struct, subprocess, sys, tempfile
 
 CASES = {
     'drawing': (['prm/cross_die.prm', '--set', 'Coupling/Friction = constant', '--set', 'Coupling/Constant friction coefficient = 0.1',
@@ -80,6 +80,24 @@ def check(name, command, folder, picture, n_views, fields):
     return ['%s: %s' % (name, p) for p in problems]
 
 
+def start_screen():
+    """A screen in memory, ready when this returns: Debian's ParaView draws through X. Xvfb chooses a free number itself."""
+    if not shutil.which('Xvfb'):
+        print('skipped: there is neither a screen nor Xvfb')
+        sys.exit(77)
+    ready, tell = os.pipe()
+    server = subprocess.Popen(['Xvfb', '-displayfd', str(tell), '-screen', '0', '1600x1000x24', '-nolisten', 'tcp'], pass_fds=[tell],
+                              stderr=subprocess.DEVNULL)
+    atexit.register(lambda: (server.terminate(), server.wait()))
+    os.close(tell)
+    with os.fdopen(ready) as answer:
+        number = answer.readline().strip()
+    if not number:
+        print('skipped: Xvfb does not start here')
+        sys.exit(77)
+    os.environ['DISPLAY'] = ':' + number
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument('--program', required=True)
@@ -87,12 +105,8 @@ def main():
     parser.add_argument('--pvpython', default='pvpython')
     parser.add_argument('--pictures', help='folder in which the pictures are kept')
     arguments = parser.parse_args()
-    command = [arguments.pvpython]
     if not os.environ.get('DISPLAY'):
-        command = ['xvfb-run', '-a', *command]  # Debian's ParaView draws through X
-        if not shutil.which('xvfb-run'):
-            print('skipped: there is neither a screen nor xvfb-run')
-            sys.exit(77)
+        start_screen()
     problems = []
     with tempfile.TemporaryDirectory() as name:
         for case, (words, n_views, fields) in CASES.items():
@@ -104,7 +118,7 @@ def main():
             folder.parent.mkdir(exist_ok=True)
             written.rename(folder)
             picture = pathlib.Path(arguments.pictures or name) / (case + '.png')
-            problems += check(case, command, folder, picture, n_views, fields)
+            problems += check(case, [arguments.pvpython], folder, picture, n_views, fields)
     print('\n'.join(problems) or 'nothing to complain about')
     sys.exit(1 if problems else 0)
 
