@@ -26,7 +26,8 @@ class Extension(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="tribodraw-extension-") as folder:
             folder = pathlib.Path(folder)
             run(CMAKE, "--install", BUILD, "--prefix", folder / "prefix")
-            run(CMAKE, "-S", SOURCE / "tests/extension/project", "-B", folder / "build",
+            # Ninja is there wherever the program was built; make need not be.
+            run(CMAKE, "-G", "Ninja", "-S", SOURCE / "tests/extension/project", "-B", folder / "build",
                 f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}", f"-DCMAKE_CXX_COMPILER={COMPILER}")
             run(CMAKE, "--build", folder / "build")
             program = folder / "build/my_tribodraw"
