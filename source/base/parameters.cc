@@ -86,6 +86,7 @@ namespace tribodraw
                            const std::optional<Default>                   &default_value,
                            const std::function<bool(const std::string &)> &accepts);
     void complain(const std::string &entry, const std::string &what, const std::string &value, const std::string &allowed, const std::string &hint);
+    bool has_used_entry(const std::string &section_path) const;
     void complain_about_unknown();
   };
 
@@ -580,11 +581,21 @@ namespace tribodraw
 
   // ---------------------------------------------------------------- ending
 
+  bool
+  Parameters::Implementation::has_used_entry(const std::string &section_path) const
+  {
+    const std::string prefix = section_path + "/";
+    for (auto at = raw.lower_bound(prefix); at != raw.end() && at->first.compare(0, prefix.size(), prefix) == 0; ++at)
+      if (at->second.used)
+        return true;
+    return false;
+  }
+
   void
   Parameters::Implementation::complain_about_unknown()
   {
     std::vector<std::pair<int, std::string>> unknown;
-    std::set<std::string>                    idle_sections;
+    std::set<std::string>                    idle_names;
     for (const auto &[path, entry] : raw)
       {
         if (entry.used)
@@ -594,8 +605,10 @@ namespace tribodraw
         });
         if (idle != unselected.end())
           {
-            if (idle_sections.insert(*idle).second)
-              warnings.push_back(entry.where + ": '" + *idle + "' has no effect with the choices made in this file.");
+            // A section is named once for all its entries, but not if one of them does have an effect.
+            const std::string &idle_name = has_used_entry(*idle) ? path : *idle;
+            if (idle_names.insert(idle_name).second)
+              warnings.push_back(entry.where + ": '" + idle_name + "' has no effect with the choices made in this file.");
             continue;
           }
         const auto               slash  = path.rfind('/');

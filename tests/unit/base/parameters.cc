@@ -132,6 +132,25 @@ TEST(Parameters, EntriesOfAnUnselectedModelOnlyWarn)
   EXPECT_NE(v.warnings[0].find("Part/Box"), std::string::npos);
 }
 
+// A file takes the place of what else stands in its section; the section itself is then not without effect.
+TEST(Parameters, WarningNamesTheIdleEntriesOfASectionInUse)
+{
+  Parameters p = Parameters::from_text("subsection Table\n set File = given.json\n set Points = 4\n"
+                                       " subsection Axis\n  set Step = 1\n end\nend\n"
+                                       "subsection Tables\n set File = x\nend\n",
+                                       "case.prm");
+  {
+    const auto scope = p.section("Table");
+    EXPECT_EQ(p.text("File", "The table."), "given.json");
+    p.mark_unselected("");
+  }
+  p.mark_unselected("Tables"); // its name begins like that of the section in use
+  EXPECT_EQ(p.finish(), (std::vector<std::string>{
+                            "case.prm:5: 'Table/Axis/Step' has no effect with the choices made in this file.",
+                            "case.prm:3: 'Table/Points' has no effect with the choices made in this file.",
+                            "case.prm:9: 'Tables' has no effect with the choices made in this file." }));
+}
+
 TEST(Parameters, OverridesReplaceAndSwitchModels)
 {
   Parameters   p = Parameters::from_text(good, "case.prm", {"Part/Model = box", "Lubricant/Deep/Steps=7"});
