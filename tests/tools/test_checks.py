@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Tests of check_includes.py and check_house.py on small trees with one fault each."""
+"""Tests of check_includes.py and check_house.py on small trees with one fault each, and of the messages that are found."""
 import pathlib
 import tempfile
 import unittest
 
 import check_house
 import check_includes
+import check_messages
 
 SOUND = {
     "include/tribodraw/base/units.h": "#include <string>\n",
@@ -22,6 +23,8 @@ SOUND = {
 
 
 class Checks(unittest.TestCase):
+    maxDiff = None
+
     def problems(self, check, changes):
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
@@ -90,6 +93,65 @@ class Checks(unittest.TestCase):
 
     def test_file_too_long(self):
         self.assert_found(check_house.check, "longer than 800 lines", {"source/tools/motion.cc": "\n" * 801})
+
+    def test_messages(self):
+        # The text stands in the call of a helper: a function, a lambda, a member of an object of another file's class, one
+        # that hands on to it. What such a function says itself is no further message, and problems of parameters are none.
+        self.assertEqual(self.problems(check_messages.messages, MESSAGES), {
+            "the header has no end (truncated?).": ("tools/motion.cc", "", "Save it again."),
+            "the line ... is not a number.": ("tools/motion.cc", "more than 0 mm", ""),
+            "the radius is not positive.": ("tools/motion.cc", "at most as much as ...", "Save it again."),
+            "there is no column ' ... '.": ("tools/motion.cc", "", ""),
+            "STL: a corner does not exist.": ("tools/plane.cc", "up to 3 corners", ""),
+            "STL: a normal is zero.": ("tools/plane.cc", "", ""),
+            "STL: the file ends too early.": ("tools/words.h", "", ""),
+        })
+
+
+MESSAGES = {
+    "source/tools/motion.cc": """
+      [[noreturn]] void
+      fail(const std::map<int, int> &known, const std::string &what, const std::string &allowed = "")
+      {
+        throw InputError(describe_error(what, place(known), "", allowed, "Save it again."));
+      }
+      void column(const std::string &name) { throw InputError("there is no column '" + name + "'."); }
+      void Numbers::read()
+      {
+        const auto wrong = [&](const int line, const std::string &what) {
+          throw InputError(describe_error("the line " + what, "", "", "more than 0 mm"));
+        };
+        if (truncated)
+          fail({}, "the header has no end (truncated?).");
+        wrong(1, print(2) + " is not a number.");
+        fail(f(1, "(,"), "the radius is " + std::string("not positive."), "at most as much as " + n);
+        column("time_in_seconds");
+      }
+      void complain(const std::string &what) { problems.push_back(describe_error(what, "")); }
+      void check() { complain("the value is out of range."); }
+""",
+    "source/tools/words.h": """
+      struct Words
+      {
+        void refuse(const std::string &what, const std::string &allowed = "") const
+        {
+          throw InputError(describe_error("STL: " + what + ".", name, "", allowed));
+        }
+        void next() { refuse("the file ends too early"); }
+      };
+""",
+    "source/tools/plane.cc": """
+      #include "words.h"
+      void refuse(const int number);
+      void read(const Words &words)
+      {
+        const auto lacks = [&](const std::string &what) { words.refuse(what); };
+        words.refuse("a corner does not exist", "up to 3 corners");
+        lacks("a normal is zero");
+        others.refuse("no such member is known", 1, 2, 3);
+      }
+""",
+}
 
 
 if __name__ == "__main__":
