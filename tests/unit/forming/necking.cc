@@ -1,4 +1,6 @@
 // The monitor of necking, fed with strains as a part would show them.
+#include "unit/forming/steel.h"
+
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/forming/necking.h>
 
@@ -17,17 +19,8 @@ namespace
 
   std::shared_ptr<const SheetMaterial> steel()
   {
-    Parameters p = Parameters::from_text(R"(
-set Young's modulus = 206 GPa
-set Poisson's ratio = 0.3
-set Yield locus = von Mises
-set Hardening = Swift
-subsection Swift
-  set Strength coefficient = 565 MPa
-  set Initial strain = 0.007
-  set Hardening exponent = 0.26
-end
-)");
+    Parameters p     = Parameters::from_text(isotropic_steel);
+    const auto scope = p.section("Sheet material");
     return std::make_shared<SheetMaterial>(SheetMaterial::read(p));
   }
 

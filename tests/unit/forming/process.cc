@@ -1,6 +1,7 @@
 // Stages and loads beyond the plain drawing process: further tools, gap and force control, edges, fluid pressure, unloading,
 // parts of the blank; and what is found wrong before the run.
 #include "unit/forming/coarse_cup.h"
+#include "unit/forming/steel.h"
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/forming/pressure_friction.h>
@@ -15,22 +16,10 @@ using Eigen::Vector3d;
 
 namespace
 {
-  /// Mild steel of the square cup, von Mises; @p rest: the other sections.
+  /// @p rest: the sections but for the material.
   Parameters file(const std::string &rest)
   {
-    return Parameters::from_text(R"(
-subsection Sheet material
-  set Young's modulus = 206 GPa
-  set Poisson's ratio = 0.3
-  set Yield locus = von Mises
-  set Hardening = Swift
-  subsection Swift
-    set Strength coefficient = 565.32 MPa
-    set Initial strain = 0.007117
-    set Hardening exponent = 0.2589
-  end
-end
-)" + rest, "file");
+    return Parameters::from_text(isotropic_steel + rest, "file");
   }
 
   void expect_piece(const std::string &text, const std::string &piece)
@@ -188,8 +177,7 @@ subsection Tools
   end
 end
 )";
-  auto text = std::string(square_cup);
-  FormingRun run(Parameters::from_text(text + pad, "cup", {"Blank/Element size = 9.375 mm", "Sheet material/Yield locus = von Mises", "Process/Punch travel = 6 mm"}));
+  FormingRun run(Parameters::from_text(square_cup + pad, "cup", {"Blank/Element size = 9.375 mm", "Sheet material/Yield locus = von Mises", "Process/Punch travel = 6 mm"}));
   FormingRun without(coarse_cup());
   run.simulation->run();
   without.simulation->run();

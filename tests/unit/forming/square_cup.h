@@ -1,8 +1,10 @@
 #ifndef tribodraw_tests_unit_forming_square_cup_h
 #define tribodraw_tests_unit_forming_square_cup_h
 
+#include "unit/forming/steel.h"
+
 /// NUMISHEET'93 square cup in mild steel: tools, blank, Hill 1948 and Swift constants of the benchmark; speed of our own.
-inline const char *const square_cup = R"(
+inline const std::string square_cup = R"(
 subsection Blank
   set Length = 150 mm
   set Width = 150 mm
@@ -10,21 +12,12 @@ subsection Blank
   set Element size = 2.0833333 mm
 end
 subsection Sheet material
-  set Young's modulus = 206 GPa
-  set Poisson's ratio = 0.3
   set Yield locus = Hill 1948
   subsection Hill 1948
     set R0 = 1.79
     set R45 = 1.51
     set R90 = 2.27
-  end
-  set Hardening = Swift
-  subsection Swift
-    set Strength coefficient = 565.32 MPa
-    set Initial strain = 0.007117
-    set Hardening exponent = 0.2589
-  end
-end
+  end)" + mild_steel + R"(end
 subsection Tools
   subsection Die
     set Model = square die

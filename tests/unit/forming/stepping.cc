@@ -1,5 +1,6 @@
 // Increments whose solution is far away: a sheet that snaps from one tool to another, a free sheet that swings.
 #include "unit/forming/coarse_cup.h"
+#include "unit/forming/steel.h"
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
@@ -18,7 +19,7 @@ namespace
   Parameters
   pressed_through(const std::string &grips)
   {
-    return Parameters::from_text(R"(
+    return Parameters::from_text(isotropic_steel + R"(
 subsection Blank
   set Length = 100 mm
   set Width = 5 mm
@@ -28,17 +29,6 @@ subsection Blank
     set Edge x = pulled
     set Edge y = plane of symmetry
     set Edge x motion = )" + grips + R"(
-  end
-end
-subsection Sheet material
-  set Young's modulus = 206 GPa
-  set Poisson's ratio = 0.3
-  set Yield locus = von Mises
-  set Hardening = Swift
-  subsection Swift
-    set Strength coefficient = 565.32 MPa
-    set Initial strain = 0.007117
-    set Hardening exponent = 0.2589
   end
 end
 subsection Tools
