@@ -5,7 +5,6 @@
 #include "report_parts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -108,32 +107,6 @@ namespace tribodraw::report
       return {};
     }
 
-    void
-    add_history(std::vector<Value> &values, const fs::path &file)
-    {
-      const auto history = read_rows(file);
-      if (!history)
-        return;
-      const auto add = [&](const char *column, const char *quantity, const char *unit, const bool greatest = false) {
-        const auto all = finite(*history, column);
-        if (!all.empty())
-          values.push_back(readable(quantity, greatest ? *std::max_element(all.begin(), all.end()) : all.back(), unit));
-      };
-      add("punch_travel_mm", "Punch travel reached", "mm");
-      add("punch_force_n", "Greatest punch force", "N", true);
-      add("draw_in_x_mm", "Draw-in in rolling direction", "mm");
-      add("draw_in_y_mm", "Draw-in across the rolling direction", "mm");
-      add("min_thickness_mm", "Least thickness", "mm");
-      add("max_eps_p", "Greatest equivalent plastic strain", "");
-      add("max_lubricant_pressure_die_mpa", "Greatest lubricant pressure, die side", "MPa", true);
-      add("max_lubricant_pressure_punch_mpa", "Greatest lubricant pressure, punch side", "MPa", true);
-      add("mean_mu_die", "Mean friction coefficient at the end, die side", "");
-      add("mean_mu_punch", "Mean friction coefficient at the end, punch side", "");
-      add("draw_in_diagonal_mm", "Draw-in along the diagonal", "mm");
-      add("starved_area_fraction", "Starved share of the contact area at the end", "");
-      values.push_back({ "Steps", std::to_string(history->rows.size()), "" });
-    }
-
     /// Rows of a file `quantity,value,unit` (surface.csv, results.csv) but those that stand on the page already.
     void
     add_list(std::vector<Value> &values, const fs::path &file, const std::vector<std::string> &shown)
@@ -165,20 +138,73 @@ namespace tribodraw::report
         }
     }
 
-    /// Least and greatest value of a few columns of a table.
-    void
-    add_ranges(std::vector<Value> &values, const fs::path &file,
-               const std::vector<std::array<const char *, 3>> &columns)
+    enum class Shown
     {
-      const auto data = read_rows(file);
-      if (!data)
-        return;
-      for (const auto &[column, quantity, unit] : columns)
-        if (const auto all = finite(*data, column); !all.empty())
+      last,
+      greatest,
+      range
+    };
+
+    struct ColumnValue
+    {
+      const char *column, *quantity, *unit;
+      Shown       shown = Shown::last;
+    };
+
+    /// Those of the columns that @p data has, with a finite value.
+    void
+    add_columns(std::vector<Value> &values, const CsvData &data, const std::vector<ColumnValue> &columns)
+    {
+      for (const ColumnValue &c : columns)
+        if (const auto all = finite(data, c.column); !all.empty())
           {
             const auto [low, high] = std::minmax_element(all.begin(), all.end());
-            values.push_back({ quantity, readable(*low) + " to " + readable(*high), unit });
+            if (c.shown == Shown::range)
+              values.push_back({ c.quantity, readable(*low) + " to " + readable(*high), written(c.unit) });
+            else
+              values.push_back(readable(c.quantity, c.shown == Shown::greatest ? *high : all.back(), c.unit));
           }
+    }
+
+    void
+    add_history(std::vector<Value> &values, const CsvData &history)
+    {
+      add_columns(
+          values, history,
+          { { "punch_travel_mm", "Punch travel reached", "mm" },
+            { "punch_force_n", "Greatest punch force", "N", Shown::greatest },
+            { "draw_in_x_mm", "Draw-in in rolling direction", "mm" },
+            { "draw_in_y_mm", "Draw-in across the rolling direction", "mm" },
+            { "min_thickness_mm", "Least thickness", "mm" },
+            { "max_eps_p", "Greatest equivalent plastic strain", "" },
+            { "max_lubricant_pressure_die_mpa", "Greatest lubricant pressure, die side", "MPa", Shown::greatest },
+            { "max_lubricant_pressure_punch_mpa", "Greatest lubricant pressure, punch side", "MPa", Shown::greatest },
+            { "mean_mu_die", "Mean friction coefficient at the end, die side", "" },
+            { "mean_mu_punch", "Mean friction coefficient at the end, punch side", "" },
+            { "draw_in_diagonal_mm", "Draw-in along the diagonal", "mm" },
+            { "starved_area_fraction", "Starved share of the contact area at the end", "" } });
+      values.push_back({ "Steps", std::to_string(history.rows.size()), "" });
+    }
+
+    void
+    add_ranges_of_tables(std::vector<Value> &values, const fs::path &folder)
+    {
+      if (const auto factors = read_rows(folder / "flow_factors.csv"))
+        add_columns(values, *factors,
+                    { { "h_avg_over_sq", "Mean gap / Sq", "", Shown::range },
+                      { "contact_fraction", "Real contact fraction", "", Shown::range },
+                      { "phi_p_xx", "Pressure flow factor xx", "", Shown::range },
+                      { "phi_p_yy", "Pressure flow factor yy", "", Shown::range },
+                      { "phi_s_xx", "Shear flow factor xx", "", Shown::range },
+                      { "phi_s_yy", "Shear flow factor yy", "", Shown::range } });
+      if (const auto table = read_rows(folder / "friction_table.csv"))
+        add_columns(values, *table,
+                    { { "p_solid_mpa", "Table: solid pressure", "MPa", Shown::range },
+                      { "eps_p", "Table: plastic strain", "", Shown::range },
+                      { "contact_fraction", "Table: real contact fraction", "", Shown::range },
+                      { "h_avg_um", "Table: mean film thickness", "um", Shown::range },
+                      { "tau_solid_mpa", "Table: shear stress of the solid contacts", "MPa", Shown::range },
+                      { "mu_boundary", "Table: boundary friction coefficient", "", Shown::range } });
     }
 
     using Cells = std::vector<std::string>;
@@ -283,27 +309,16 @@ namespace tribodraw::report
       std::vector<Value>       values;
       std::vector<std::string> shown{ "energy_error", "stabilisation_work", "largest_penetration", "flux_imbalance",
                                       "volume_error" };
-      add_history(values, folder / "history.csv");
-      if (!values.empty())
-        for (const char *name : { "punch_travel", "largest_punch_force", "draw_in_x", "draw_in_y", "draw_in_diagonal",
-                                  "least_thickness_of_an_element", "largest_plastic_strain" })
-          shown.emplace_back(name);
+      if (const auto history = read_rows(folder / "history.csv"))
+        {
+          add_history(values, *history);
+          for (const char *name : { "punch_travel", "largest_punch_force", "draw_in_x", "draw_in_y", "draw_in_diagonal",
+                                    "least_thickness_of_an_element", "largest_plastic_strain" })
+            shown.emplace_back(name);
+        }
       add_list(values, folder / "results.csv", shown);
       add_list(values, folder / "surface.csv", {});
-      add_ranges(values, folder / "flow_factors.csv",
-                 { { "h_avg_over_sq", "Mean gap / Sq", "" },
-                   { "contact_fraction", "Real contact fraction", "" },
-                   { "phi_p_xx", "Pressure flow factor xx", "" },
-                   { "phi_p_yy", "Pressure flow factor yy", "" },
-                   { "phi_s_xx", "Shear flow factor xx", "" },
-                   { "phi_s_yy", "Shear flow factor yy", "" } });
-      add_ranges(values, folder / "friction_table.csv",
-                 { { "p_solid_mpa", "Table: solid pressure", "MPa" },
-                   { "eps_p", "Table: plastic strain", "" },
-                   { "contact_fraction", "Table: real contact fraction", "" },
-                   { "h_avg_um", "Table: mean film thickness", "µm" },
-                   { "tau_solid_mpa", "Table: shear stress of the solid contacts", "MPa" },
-                   { "mu_boundary", "Table: boundary friction coefficient", "" } });
+      add_ranges_of_tables(values, folder);
       return values;
     }
   } // namespace
