@@ -78,9 +78,12 @@ namespace tribodraw
         if (first->tool().size() > 0)
           write_gsf(section(first->tool()), folder / "tool_surface.gsf");
       }
-    std::set<std::string> written;
+    std::set<const FrictionTable *> known; // tools with one surface share a table
+    std::set<std::string>           written;
     for (const ToolFriction &t : tools)
       {
+        if (!known.insert(t.table.get()).second)
+          continue;
         nlohmann::json content = t.table->to_json();
         content.erase("provenance"); // names the tool
         if (!written.insert(content.dump()).second)
