@@ -63,30 +63,44 @@ namespace tribodraw::figures
 
   namespace
   {
+    /// The rows of a friction table with one strain, over the solid pressure.
+    plot::Series
+    over_pressure(const CsvData &data, const std::string &column, const double level)
+    {
+      plot::Series series;
+      const auto pressure = data.numbers("p_solid_mpa"), strain = data.numbers("eps_p"), values = data.numbers(column);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (strain[i] == level)
+          {
+            series.x.push_back(pressure[i]);
+            series.y.push_back(values[i]);
+          }
+      return series;
+    }
+
+    plot::LineChart
+    chart_over_pressure(const std::string &title, const std::string &label)
+    {
+      plot::LineChart chart{ title, "Solid pressure / MPa", label };
+      chart.logarithmic_x = true;
+      chart.y_from_zero   = true;
+      return chart;
+    }
+
     /// @param of which tool, empty for the first or only one
     void
     draw_one_table(const std::filesystem::path &file, const std::string &of)
     {
-      const std::string tool     = of.empty() ? "" : ", " + of;
-      const std::string suffix   = of.empty() ? "" : "_of_" + of;
-      const auto        stem     = [&](const char *name) { return file.parent_path() / (name + suffix); };
-      const CsvData     data     = read_csv(file);
-      const auto        pressure = data.numbers("p_solid_mpa"), strain = data.numbers("eps_p");
+      const std::string tool   = of.empty() ? "" : ", " + of;
+      const std::string suffix = of.empty() ? "" : "_of_" + of;
+      const auto        stem   = [&](const char *name) { return file.parent_path() / (name + suffix); };
+      const CsvData     data   = read_csv(file);
       const auto        family = [&](const std::string &title, const std::string &label, const std::string &column) {
-        plot::LineChart c{ title + tool, "Solid pressure / MPa", label };
-        c.logarithmic_x   = true;
-        c.y_from_zero     = true;
-        const auto values = data.numbers(column);
-        for (const double level : choose_levels(strain, 6))
+        plot::LineChart c = chart_over_pressure(title + tool, label);
+        for (const double level : choose_levels(data.numbers("eps_p"), 6))
           {
-            plot::Series series{ "strain " + short_number(level), {}, {}, Style::line };
-            for (std::size_t i = 0; i < values.size(); ++i)
-              if (strain[i] == level)
-                {
-                  series.x.push_back(pressure[i]);
-                  series.y.push_back(values[i]);
-                }
-            c.series.push_back(series);
+            c.series.push_back(over_pressure(data, column, level));
+            c.series.back().label = "strain " + short_number(level);
           }
         return c;
       };
@@ -100,6 +114,41 @@ namespace tribodraw::figures
       plot::draw(family("Pressure flow factor ΦP xx", "Flow factor", "phi_p_xx"), stem("table_phi_p"));
       plot::draw(family("Shear flow factor ΦS xx", "Flow factor", "phi_s_xx"), stem("table_phi_s"));
     }
+
+    /// What differs between the maps of a sheet, at the least and the greatest strain.
+    void
+    draw_scatter(const std::filesystem::path &file)
+    {
+      const CsvData data  = read_csv(file);
+      const auto    chart = [&](const std::string &title, const std::string &label, const std::string &quantity) {
+        plot::LineChart c = chart_over_pressure(title + " of several maps", label);
+        for (const double level : choose_levels(data.numbers("eps_p"), 2))
+          {
+            const std::string strain = "strain " + short_number(level);
+            plot::Series      mean   = over_pressure(data, quantity + "_mean", level);
+            mean.label               = strain + ": mean";
+            mean.style               = Style::line_with_points;
+            // Both ends of the band in one colour: one curve with a gap between them.
+            plot::Series       band     = over_pressure(data, quantity + "_min", level);
+            const plot::Series greatest = over_pressure(data, quantity + "_max", level);
+            band.x.push_back(NAN);
+            band.y.push_back(NAN);
+            band.x.insert(band.x.end(), greatest.x.begin(), greatest.x.end());
+            band.y.insert(band.y.end(), greatest.y.begin(), greatest.y.end());
+            band.label = strain + ": least and greatest";
+            band.style = Style::dashed_line;
+            c.series.push_back(mean);
+            c.series.push_back(band);
+          }
+        return c;
+      };
+      const auto folder = file.parent_path();
+      plot::draw(chart("Contact fraction", "Contact fraction", "contact_fraction"),
+                 folder / "scatter_contact_fraction");
+      plot::draw(chart("Mean film", "Film thickness / µm", "h_avg_um"), folder / "scatter_film_thickness");
+      plot::draw(chart("Friction coefficient", "Friction coefficient", "mu_boundary"),
+                 folder / "scatter_friction_coefficient");
+    }
   } // namespace
 
   void
@@ -112,6 +161,8 @@ namespace tribodraw::figures
       if (const std::string name = entry.path().stem().string();
           entry.path().extension() == ".csv" && name.rfind(start, 0) == 0)
         draw_one_table(entry.path(), name.substr(start.size()));
+    if (const auto file = folder / "scatter.csv"; std::filesystem::exists(file))
+      draw_scatter(file);
   }
 
   void

@@ -97,7 +97,12 @@ namespace tribodraw::report
             { "table_solid_shear", "Shear stress of the solid contacts over solid pressure." },
             { "table_friction_coefficient", "Friction coefficient of the boundary regime over solid pressure." },
             { "table_phi_p", "Pressure flow factor of the flattened surface over solid pressure." },
-            { "table_phi_s", "Shear flow factor of the flattened surface over solid pressure." } } },
+            { "table_phi_s", "Shear flow factor of the flattened surface over solid pressure." },
+            { "scatter_contact_fraction",
+              "Scatter between the maps of the sheet: real contact fraction at the least and the greatest strain." },
+            { "scatter_film_thickness", "Scatter between the maps of the sheet: mean film thickness in the gap." },
+            { "scatter_friction_coefficient",
+              "Scatter between the maps of the sheet: friction coefficient of the boundary regime." } } },
       };
       return groups;
     }

@@ -20,7 +20,8 @@ namespace tribodraw
     /// flow_factors.csv -> phi_p, phi_s.
     void draw_flow_factors(const std::filesystem::path &folder);
     /// friction_table.csv -> table_contact_fraction, table_film_thickness, table_solid_shear,
-    /// table_friction_coefficient, table_phi_p, table_phi_s, each over solid pressure for several plastic strains.
+    /// table_friction_coefficient, table_phi_p, table_phi_s, each over solid pressure for several plastic strains;
+    /// scatter.csv -> scatter_contact_fraction, scatter_film_thickness, scatter_friction_coefficient.
     void draw_friction_table(const std::filesystem::path &folder);
 
     /// strip_profile.csv, sweep_<quantity>.csv -> strip_pressure, strip_gap, sweep_<quantity>, sweep_<quantity>_share.

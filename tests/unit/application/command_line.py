@@ -213,6 +213,8 @@ class Runs(InFolder):
         self.assertEqual(list(self.rows("table/scatter.csv")[0])[:6],
                          ["p_solid_mpa", "eps_p", "contact_fraction_mean", "contact_fraction_sd", "contact_fraction_min",
                           "contact_fraction_max"])
+        self.assertLessEqual({"scatter_contact_fraction.svg", "scatter_friction_coefficient.svg"},
+                             {f.name for f in (self.folder / "table").iterdir()})
         self.assertGreater(max(float(r["contact_fraction_sd"]) for r in self.rows("table/scatter.csv")), 0)
         given = self.folder / "table"
         band = ", ".join(str(given / f"friction_table_map_{i}.json") for i in (1, 2, 3))

@@ -110,6 +110,31 @@ TEST(Report, ids_are_unique_although_figures_share_theirs)
   EXPECT_GT(seen.size(), 10u); // gnuplot's symbols of both figures
 }
 
+TEST(Report, shows_the_scatter_of_a_friction_table)
+{
+  const TemporaryFolder folder;
+  std::string           head = "p_solid_mpa,eps_p";
+  for (const std::string quantity : { "contact_fraction", "h_avg_um", "mu_boundary" })
+    for (const char *end : { "_mean", "_sd", "_min", "_max" })
+      head += "," + quantity + end;
+  write_file(folder / "scatter.csv", head
+                                         + "\n1,0,0.1,0.01,0.09,0.11,2,0.2,1.8,2.2,0.1,0.01,0.09,0.11\n"
+                                           "10,0,0.3,0.01,0.29,0.31,1,0.2,0.8,1.2,0.12,0.01,0.11,0.13\n"
+                                           "1,0.2,0.2,0.01,0.19,0.21,2,0.2,1.8,2.2,0.1,0.01,0.09,0.11\n"
+                                           "10,0.2,0.5,0.01,0.49,0.51,1,0.2,0.8,1.2,0.12,0.01,0.11,0.13\n");
+  figures::draw_all(folder.path());
+  write_report(folder.path());
+  EXPECT_EQ(TemporaryFolder::parse_xml({ folder / "report.html" }), 0);
+  const std::string html = read_file(folder / "report.html");
+  for (const std::string stem :
+       { "scatter_contact_fraction", "scatter_film_thickness", "scatter_friction_coefficient" })
+    EXPECT_NE(html.find("<figure id=\"" + stem + "\"><svg"), std::string::npos) << stem;
+  EXPECT_NE(html.find("<h3>Friction table</h3>"), std::string::npos);
+  EXPECT_EQ(html.find("<h3>More</h3>"), std::string::npos); // each has its caption
+  for (const char *label : { "strain 0: mean", "strain 0.2: least and greatest" })
+    EXPECT_NE(html.find(label), std::string::npos) << label;
+}
+
 TEST(Report, an_empty_folder_gives_a_page)
 {
   const TemporaryFolder folder;
