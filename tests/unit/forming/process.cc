@@ -16,10 +16,28 @@ using Eigen::Vector3d;
 
 namespace
 {
-  /// @p rest: the sections but for the material.
-  Parameters file(const std::string &rest)
+  /// A sheet of 1 mm of the isotropic steel without tools, with what @p blank and @p process say.
+  Parameters sheet_alone(const std::string &blank, const std::string &process)
   {
-    return Parameters::from_text(isotropic_steel + rest, "file");
+    return Parameters::from_text(isotropic_steel + "subsection Blank\n set Thickness = 1 mm\n" + blank +
+                                   "end\nsubsection Process\n" + process +
+                                   "end\nsubsection Tools\n set Without = Die, Punch, Blank holder\nend\n",
+                                 "file");
+  }
+
+  /// A strip of 100 x 20 x 1 mm pulled along x: @p pulling as in `Edge x force` or `motion`.
+  Parameters pulled_strip(const std::string &pulling, const std::string &duration)
+  {
+    return sheet_alone(R"(
+  set Length = 100 mm
+  set Width = 20 mm
+  set Element size = 5 mm
+  subsection Edges
+    set Edge x = pulled
+    set Edge x )" + pulling + R"(
+  end
+)",
+                       "set Duration = " + duration + "\n");
   }
 
   void expect_piece(const std::string &text, const std::string &piece)
@@ -32,24 +50,7 @@ namespace
 // strain (volume kept; the elastic strain of 0.2 % of it is neglected, which is the tolerance).
 TEST(Process, StripPulledByAForce)
 {
-  FormingRun run(file(R"(
-subsection Blank
-  set Length = 100 mm
-  set Width = 20 mm
-  set Thickness = 1 mm
-  set Element size = 5 mm
-  subsection Edges
-    set Edge x = pulled
-    set Edge x force = 0 s, 0 kN, 1 s, 6 kN
-  end
-end
-subsection Tools
-  set Without = Die, Punch, Blank holder
-end
-subsection Process
-  set Duration = 1 s
-end
-)"));
+  FormingRun run(pulled_strip("force = 0 s, 0 kN, 1 s, 6 kN", "1 s"));
   run.simulation->run();
   const double strain = std::log((50 - run.last().draw_in_x) / 50);
   EXPECT_GT(strain, 0.03);
@@ -61,24 +62,7 @@ end
 // go, but for what the grips hold.
 TEST(Process, StripPulledByAMotion)
 {
-  FormingRun run(file(R"(
-subsection Blank
-  set Length = 100 mm
-  set Width = 20 mm
-  set Thickness = 1 mm
-  set Element size = 5 mm
-  subsection Edges
-    set Edge x = pulled
-    set Edge x motion = 0 s, 0 mm, 2 s, 3 mm
-  end
-end
-subsection Tools
-  set Without = Die, Punch, Blank holder
-end
-subsection Process
-  set Duration = 2 s
-end
-)"));
+  FormingRun run(pulled_strip("motion = 0 s, 0 mm, 2 s, 3 mm", "2 s"));
   run.simulation->run();
   EXPECT_NEAR(run.last().draw_in_x, -3, 1e-9);
   EXPECT_NEAR(run.last().path, 3, 1e-9);
@@ -91,24 +75,15 @@ end
 // (J. Chakrabarty, J. M. Alexander, J. Strain Anal. 5 (1970) 155; a formula for moderate heights); the mesh is coarse: 5 %.
 TEST(Process, HydraulicBulgeThinsAsASphere)
 {
-  FormingRun run(file(R"(
-subsection Blank
+  FormingRun run(sheet_alone(R"(
   set Shape = circle
   set Diameter = 200 mm
-  set Thickness = 1 mm
   set Element size = 12 mm
   subsection Edges
     set Outer edge = clamped
   end
-end
-subsection Tools
-  set Without = Die, Punch, Blank holder
-end
-subsection Process
-  set Duration = 1 s
-  set Fluid pressure = 0 s, 0 MPa, 1 s, 4 MPa
-end
-)"));
+)",
+                             "set Duration = 1 s\nset Fluid pressure = 0 s, 0 MPa, 1 s, 4 MPa\n"));
   run.simulation->run();
   const Shell &shell = run.simulation->shell();
   double       h = 0, thickness = 1;
