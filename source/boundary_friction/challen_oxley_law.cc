@@ -10,50 +10,30 @@ namespace tribodraw
   {
     /// Every patch is a wedge with the attack angle of its leading side, tan theta = frontal / load-bearing area; its
     /// pressure follows from the slip-line field and falls with the shear of the boundary layer.
-    class ChallenOxleyLaw : public PloughingLaw
+    struct ChallenOxleyIndentation : PatchIndentation
     {
-    public:
-      explicit ChallenOxleyLaw(Parameters &parameters) : depth(parameters) {}
+      using PatchIndentation::PatchIndentation;
 
-      std::unique_ptr<Indentation>
-      indentation(const PlateauContact &contact, const PloughingStrength &strength) const override
+      IndentationForces
+      forces(const std::size_t n_pixels) const override
       {
-        return std::make_unique<State>(contact, strength, depth);
+        const double k = strength.shear_strength, f = strength.tau / k;
+        return sum_over_patches(
+            contact, n_pixels,
+            [&](IndentationForces &sums, const ContactPatch &patch, const double psi, const double weight) {
+              const PloughingForces geometry = plough_paraboloid(patch.a, patch.b, depth.of(patch), psi, 0., 0.);
+              const double          area = weight * geometry.projected_area, frontal = weight * geometry.frontal_area;
+              const ChallenOxley    wedge = challen_oxley(std::atan2(frontal, area), f);
+              sums.area += area;
+              sums.pressure_support += k * wedge.pressure * area;
+              sums.pressure_drag += k * wedge.pressure * frontal;
+              sums.shear_support += k * wedge.shear * frontal;
+              sums.shear_drag += k * wedge.shear * area;
+            });
       }
-
-    private:
-      struct State : Indentation
-      {
-        State(const PlateauContact &c, const PloughingStrength &s, const PatchDepth &d)
-            : contact(c), strength(s), depth(d)
-        {
-        }
-
-        IndentationForces
-        forces(const std::size_t n_pixels) const override
-        {
-          const double k = strength.shear_strength, f = strength.tau / k;
-          return sum_over_patches(
-              contact, n_pixels,
-              [&](IndentationForces &sums, const ContactPatch &patch, const double psi, const double weight) {
-                const PloughingForces geometry = plough_paraboloid(patch.a, patch.b, depth.of(patch), psi, 0., 0.);
-                const double          area = weight * geometry.projected_area, frontal = weight * geometry.frontal_area;
-                const ChallenOxley    wedge = challen_oxley(std::atan2(frontal, area), f);
-                sums.area += area;
-                sums.pressure_support += k * wedge.pressure * area;
-                sums.pressure_drag += k * wedge.pressure * frontal;
-                sums.shear_support += k * wedge.shear * frontal;
-                sums.shear_drag += k * wedge.shear * area;
-              });
-        }
-
-        const PlateauContact   &contact;
-        const PloughingStrength strength;
-        const PatchDepth        depth;
-      };
-
-      const PatchDepth depth;
     };
+
+    using ChallenOxleyLaw = PatchLaw<ChallenOxleyIndentation>;
   } // namespace
 
   TRIBODRAW_REGISTER(PloughingLaw, ChallenOxleyLaw, "Challen-Oxley",

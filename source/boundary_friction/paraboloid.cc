@@ -5,48 +5,28 @@ namespace tribodraw
   namespace
   {
     /// Every patch ploughs as an elliptical paraboloid at any orientation.
-    class Paraboloid : public PloughingLaw
+    struct ParaboloidIndentation : PatchIndentation
     {
-    public:
-      explicit Paraboloid(Parameters &parameters) : depth(parameters) {}
+      using PatchIndentation::PatchIndentation;
 
-      std::unique_ptr<Indentation>
-      indentation(const PlateauContact &contact, const PloughingStrength &strength) const override
+      IndentationForces
+      forces(const std::size_t n_pixels) const override
       {
-        return std::make_unique<State>(contact, strength, depth);
+        return sum_over_patches(
+            contact, n_pixels,
+            [&](IndentationForces &sums, const ContactPatch &patch, const double psi, const double weight) {
+              const PloughingForces by_shear
+                  = plough_paraboloid(patch.a, patch.b, depth.of(patch), psi, 0., weight * strength.tau);
+              sums.area += weight * by_shear.projected_area;
+              sums.pressure_support += weight * strength.hardness * by_shear.projected_area;
+              sums.pressure_drag += weight * strength.hardness * by_shear.frontal_area;
+              sums.shear_support -= by_shear.support;
+              sums.shear_drag += by_shear.drag;
+            });
       }
-
-    private:
-      struct State : Indentation
-      {
-        State(const PlateauContact &c, const PloughingStrength &s, const PatchDepth &d)
-            : contact(c), strength(s), depth(d)
-        {
-        }
-
-        IndentationForces
-        forces(const std::size_t n_pixels) const override
-        {
-          return sum_over_patches(
-              contact, n_pixels,
-              [&](IndentationForces &sums, const ContactPatch &patch, const double psi, const double weight) {
-                const PloughingForces by_shear
-                    = plough_paraboloid(patch.a, patch.b, depth.of(patch), psi, 0., weight * strength.tau);
-                sums.area += weight * by_shear.projected_area;
-                sums.pressure_support += weight * strength.hardness * by_shear.projected_area;
-                sums.pressure_drag += weight * strength.hardness * by_shear.frontal_area;
-                sums.shear_support -= by_shear.support;
-                sums.shear_drag += by_shear.drag;
-              });
-        }
-
-        const PlateauContact   &contact;
-        const PloughingStrength strength;
-        const PatchDepth        depth;
-      };
-
-      const PatchDepth depth;
     };
+
+    using Paraboloid = PatchLaw<ParaboloidIndentation>;
   } // namespace
 
   TRIBODRAW_REGISTER(PloughingLaw, Paraboloid, "paraboloid",

@@ -4,6 +4,8 @@
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/boundary_friction/ploughing.h>
 
+#include <memory>
+
 namespace tribodraw
 {
   /// How the depth of a patch's paraboloid is chosen: entry `Depth of patches`.
@@ -28,6 +30,36 @@ namespace tribodraw
     }
 
     const bool from_slopes;
+  };
+
+  /// What an indentation into patches is made of.
+  struct PatchIndentation : Indentation
+  {
+    PatchIndentation(const PlateauContact &c, const PloughingStrength &s, const PatchDepth &d)
+        : contact(c), strength(s), depth(d)
+    {
+    }
+
+    const PlateauContact   &contact;
+    const PloughingStrength strength;
+    const PatchDepth        depth;
+  };
+
+  /// A law whose indentation is the given kind of PatchIndentation.
+  template <class Kind>
+  class PatchLaw : public PloughingLaw
+  {
+  public:
+    explicit PatchLaw(Parameters &parameters) : depth(parameters) {}
+
+    std::unique_ptr<Indentation>
+    indentation(const PlateauContact &contact, const PloughingStrength &strength) const override
+    {
+      return std::make_unique<Kind>(contact, strength, depth);
+    }
+
+  private:
+    const PatchDepth depth;
   };
 
   /// Sum over the patches and sliding directions of what @p add(sums, patch, direction angle minus patch angle, weight)
