@@ -1,5 +1,5 @@
 // Measured against computed curves: figures of known differences, units, and what does not fit.
-#include "unit/output/temporary_folder.h"
+#include "temporary_folder.h"
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>

@@ -1,5 +1,7 @@
 // Readers and writers of surface files. Byte sequences are written by this test, not by the program's writers, except
 // in the round trips.
+#include "temporary_folder.h"
+
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/base/parameters.h>
@@ -12,7 +14,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
-#include <unistd.h>
 
 using namespace tribodraw;
 
@@ -23,20 +24,7 @@ namespace
   class SurfaceFiles : public ::testing::Test
   {
   protected:
-    // ctest runs programs side by side, and with MPI each rank its own copy of this test.
-    const fs::path folder = fs::temp_directory_path() / ("tribodraw_surface_files_" + std::to_string(getpid()));
-
-    void
-    SetUp() override
-    {
-      fs::create_directories(folder);
-    }
-
-    void
-    TearDown() override
-    {
-      fs::remove_all(folder);
-    }
+    const TemporaryFolder folder;
 
     fs::path
     write(const std::string &content) const

@@ -1,38 +1,24 @@
 // Every variant of every format, written by the independent writer of format_samples, gives the same map.
 #include "format_samples.h"
+#include "temporary_folder.h"
 
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/surface/surface_reader.h>
 
 #include <cmath>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
-#include <unistd.h>
 
 using namespace tribodraw;
 using namespace format_samples;
 
 namespace
 {
-  namespace fs = std::filesystem;
-
   class SurfaceFormats : public ::testing::Test
   {
   protected:
-    const fs::path folder = fs::temp_directory_path() / ("tribodraw_surface_formats_" + std::to_string(getpid()));
-
-    void
-    SetUp() override
-    {
-      fs::create_directories(folder);
-    }
-    void
-    TearDown() override
-    {
-      fs::remove_all(folder);
-    }
+    const TemporaryFolder folder;
 
     HeightMap
     read(const std::string &content, const GivenScales &given = {}) const

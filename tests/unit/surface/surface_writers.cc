@@ -1,4 +1,6 @@
 // Files that the program writes: read back to the precision of the format, complete or not there at all.
+#include "temporary_folder.h"
+
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
 #include <tribodraw/surface/surface_reader.h>
@@ -8,7 +10,6 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
-#include <unistd.h>
 
 using namespace tribodraw;
 
@@ -19,18 +20,7 @@ namespace
   class SurfaceWriters : public ::testing::Test
   {
   protected:
-    const fs::path folder = fs::temp_directory_path() / ("tribodraw_surface_writers_" + std::to_string(getpid()));
-
-    void
-    SetUp() override
-    {
-      fs::create_directories(folder);
-    }
-    void
-    TearDown() override
-    {
-      fs::remove_all(folder);
-    }
+    const TemporaryFolder folder;
   };
 
   /// 37 x 23 points without any symmetry, three not measured.
@@ -143,5 +133,5 @@ TEST_F(SurfaceWriters, MistakesAreReportedAndLeaveNothing)
   EXPECT_NE(error(map, folder / "map.sdf", "surf").find("`surf`"), std::string::npos);
   EXPECT_NE(error(HeightMap(), folder / "map.sdf").find("an empty map cannot be written"), std::string::npos);
   EXPECT_NE(error(map, folder / "no folder" / "map.sdf").find("cannot create the file"), std::string::npos);
-  EXPECT_TRUE(fs::is_empty(folder));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }

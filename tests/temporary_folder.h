@@ -1,5 +1,5 @@
-#ifndef tribodraw_tests_unit_output_temporary_folder_h
-#define tribodraw_tests_unit_output_temporary_folder_h
+#ifndef tribodraw_tests_temporary_folder_h
+#define tribodraw_tests_temporary_folder_h
 
 #include <cstdlib>
 #include <filesystem>
