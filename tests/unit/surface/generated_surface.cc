@@ -1,5 +1,6 @@
 // Generated surfaces through the parameter file, as the program makes them.
-#include <tribodraw/base/errors.h>
+#include "surface_from_text.h"
+
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/parameters.h>
 #include <tribodraw/surface/autocorrelation.h>
@@ -48,31 +49,6 @@ namespace
         "bimodal", common(pixels, "1.60 um", seed),
         "set Crater correlation length = 45 um\nset Plateau area fraction = 0.6368\nset Edge steepness = 2.2\n"
         "set Fine roughness ratio = 0.12\nset Fine correlation length = 9 um\n");
-  }
-
-  HeightMap
-  make(const std::string &text)
-  {
-    auto       parameters = Parameters::from_text(text);
-    const auto surface    = read_surface(parameters);
-    parameters.finish();
-    return surface();
-  }
-
-  std::string
-  problems_of(const std::string &text)
-  {
-    auto parameters = Parameters::from_text(text);
-    read_surface(parameters);
-    try
-      {
-        parameters.finish();
-      }
-    catch (const InputError &e)
-      {
-        return e.what();
-      }
-    return "";
   }
 
   /// Mean and root mean square in extended precision, independent of the program's own sums.

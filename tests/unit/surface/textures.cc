@@ -1,12 +1,12 @@
 // Textures beyond the plain Gaussian and bimodal ones: lay angle, prescribed moments, craters.
+#include "surface_from_text.h"
+
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/parallel.h>
-#include <tribodraw/base/parameters.h>
 #include <tribodraw/surface/autocorrelation.h>
 #include <tribodraw/surface/johnson_curve.h>
 #include <tribodraw/surface/roughness.h>
 #include <tribodraw/surface/spectral_field.h>
-#include <tribodraw/surface/surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,31 +43,6 @@ namespace
                      "set Crater diameter = 90 um\nset Plateau area fraction = " + plateau
                          + "\nset Profile exponent = 4\nset Fine roughness ratio = " + fine_ratio
                          + "\nset Fine correlation length = 9 um\n");
-  }
-
-  HeightMap
-  make(const std::string &text)
-  {
-    auto       parameters = Parameters::from_text(text);
-    const auto surface    = read_surface(parameters);
-    parameters.finish();
-    return surface();
-  }
-
-  std::string
-  problems_of(const std::string &text)
-  {
-    auto parameters = Parameters::from_text(text);
-    read_surface(parameters);
-    try
-      {
-        parameters.finish();
-      }
-    catch (const InputError &e)
-      {
-        return e.what();
-      }
-    return "";
   }
 } // namespace
 
