@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random valid lubricated cross-die cases: lubricated_sweep.py PROGRAM FOLDER [--cases 200] [--seed 1] [--only N]
+"""Random valid lubricated cross-die cases: lubricated_sweep.py PROGRAM FOLDER [--cases 200] [--seed 1] [--jobs 1] [--only N]
 
 Amount 0.3 to 3.5 g/m2, viscosity 10 to 300 mPa s, punch speed 10 to 200 mm/s, blank holder force 50 to 200 kN, thickness
 0.6 to 1.1 mm, one of eight surfaces, one of both rules of supply (four of five: film transport), otherwise
@@ -10,14 +10,15 @@ that ended otherwise is kept for its diagnosis. Exit code 1 if more than 1 % of 
 About 10 CPU s a case and one friction table (10 CPU s) a surface.
 """
 import argparse
+import concurrent.futures
 import csv
 import os
 import pathlib
 import random
-import resource
 import shutil
 import subprocess
 import sys
+import tempfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 DRAWN = ["amount_g_m2", "viscosity_mpas", "speed_mm_s", "holder_force_kn", "thickness_mm", "surface_seed", "supply"]
@@ -58,22 +59,25 @@ def command(program, output, drawn):
 
 def run(program, folder, drawn):
     output = folder / f"case_{drawn['case']:03}"
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     # Without gnuplot on the path no figures are drawn; they would take longer than the drawing.
-    done = subprocess.run(command(program, output, drawn), capture_output=True, text=True, env={**os.environ, "PATH": "/nonexistent"})
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    with tempfile.TemporaryFile("w+") as errors:
+        child = subprocess.Popen(command(program, output, drawn), stdout=subprocess.DEVNULL, stderr=errors,
+                                 env={**os.environ, "PATH": "/nonexistent"})
+        _, status, usage = os.wait4(child.pid, 0)  # the time of this case alone, whatever runs beside it
+        child.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        complaint = errors.read().strip()
     row = dict.fromkeys(COLUMNS, "")
-    row.update(drawn, exit_code=done.returncode,
-               cpu_s=f"{after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime:.1f}")
+    row.update(drawn, exit_code=child.returncode, cpu_s=f"{usage.ru_utime + usage.ru_stime:.1f}")
     if not (output / "results.csv").exists():
-        row["end"] = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "nothing written"
+        row["end"] = complaint.splitlines()[-1] if complaint else "nothing written"
         return row
     with open(output / "results.csv") as file:
         figures = {r["quantity"]: float(r["value"]) for r in csv.DictReader(file)}
     with open(output / "history.csv") as file:
         history = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(file)]
     travel, necked = figures["punch_travel"], figures["necked"] > 0
-    row.update(end="neck" if necked else "full travel" if abs(travel - 58) < 1e-9 and done.returncode == 0 else "other",
+    row.update(end="neck" if necked else "full travel" if abs(travel - 58) < 1e-9 and child.returncode == 0 else "other",
                travel_mm=f"{travel:.2f}", largest_force_kn=f"{1e-3 * figures['largest_punch_force']:.1f}",
                mean_friction_die=f"{sum(r['mean_mu_die'] for r in history) / len(history):.4f}",
                largest_lubricant_pressure_mpa=f"{max(r['max_lubricant_pressure_die_mpa'] for r in history):.2f}",
@@ -97,6 +101,7 @@ def main():
     arguments.add_argument("folder", type=pathlib.Path)
     arguments.add_argument("--cases", type=int, default=200)
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--jobs", type=int, default=1, help="cases side by side")
     arguments.add_argument("--only", type=int, action="append", help="print the command of this case and run it, with all output")
     given = arguments.parse_args()
     if given.only:
@@ -110,15 +115,17 @@ def main():
     table = given.folder / "sweep.csv"
     rows = list(csv.DictReader(open(table))) if table.exists() else []
     known = {int(r["case"]) for r in rows}
-    for drawn in cases(given.cases, given.seed):
-        if drawn["case"] in known:
-            continue
-        rows.append(run(given.program, given.folder, drawn))
-        with open(table, "w", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS)
-            writer.writeheader()
-            writer.writerows(rows)
-        print({k: v for k, v in rows[-1].items() if v != ""}, flush=True)
+    missing = [drawn for drawn in cases(given.cases, given.seed) if drawn["case"] not in known]
+    with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
+        running = [pool.submit(run, given.program, given.folder, drawn) for drawn in missing]
+        for done in concurrent.futures.as_completed(running):
+            print({k: v for k, v in done.result().items() if v != ""}, flush=True)
+            rows.append(done.result())
+            rows.sort(key=lambda row: int(row["case"]))
+            with open(table, "w", newline="") as file:
+                writer = csv.DictWriter(file, COLUMNS)
+                writer.writeheader()
+                writer.writerows(rows)
     report(rows)
 
 
