@@ -290,6 +290,8 @@ TEST(PointBatch, both_instruction_sets_agree)
   EXPECT_LT(worst_stress, 1e-9);  // MPa, of some 500
   EXPECT_LT(worst_tangent, 1e-6); // MPa, of some 1e5
   EXPECT_LT(worst_state, 1e-14);
+#  ifndef __clang__ // which fuses within one expression only, so that both give the same bits
   EXPECT_GT(n_different, 0u); // or the same code ran twice
+#  endif
 }
 #endif

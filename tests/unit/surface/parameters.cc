@@ -83,8 +83,9 @@ TEST(Autocorrelation, EqualsTheSumOverPairs)
 {
   // Definition summed directly, on open and periodic maps with odd and even, prime and composite sizes.
   for (const bool periodic : { false, true })
-    for (const auto &[nx, ny] : { std::pair<std::size_t, std::size_t>(13, 10), { 16, 9 }, { 1, 7 }, { 103, 2 } })
+    for (const auto &size : { std::pair<std::size_t, std::size_t>(13, 10), { 16, 9 }, { 1, 7 }, { 103, 2 } })
       {
+        const std::size_t nx = size.first, ny = size.second;
         NormalDeviates        deviates(4);
         const auto            map = map_of(nx, ny, 1., 2., periodic, [&](double, double) { return deviates(); });
         const Autocorrelation acf(map);
