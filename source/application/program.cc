@@ -4,6 +4,7 @@
 #include <tribodraw/application/verbs.h>
 #include <tribodraw/base/errors.h>
 #include <tribodraw/base/files.h>
+#include <tribodraw/base/leaks.h>
 #include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/timing.h>
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <thread>
 
 namespace tribodraw
@@ -263,7 +265,11 @@ namespace tribodraw
     char *name_only[] = { argv[0], nullptr };
     int   n_names     = 1;
     char **names       = name_only;
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, names, dealii::numbers::invalid_unsigned_int);
+    std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
+    {
+      const leaks::Ignored of_mpi;
+      mpi.emplace(n_names, names, dealii::numbers::invalid_unsigned_int);
+    }
     // Its own communicator, so that the wait of a failing rank meets nothing else.
     MPI_Comm communicator;
     MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
@@ -293,6 +299,7 @@ namespace tribodraw
                     communicator);
       }
     MPI_Comm_free(&communicator);
+    leaks::check();
     return code;
   }
 } // namespace tribodraw

@@ -147,7 +147,7 @@ namespace tribodraw
       if (held[i])
         {
           b[i] = 0;
-          if (i < n)
+          if (i < n && tangent.column.cols() > 0) // one for each tool moved by a force
             tangent.column.row(i).setZero(), tangent.row.row(i).setZero();
         }
     if (has_factors && similar && iterate(tangent, tolerance, b))

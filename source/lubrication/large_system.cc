@@ -76,7 +76,7 @@ namespace tribodraw
           const int *first = row + start[begin + i], *last = row + start[begin + i + 1];
           for (int k = 0; k < n_entries; ++k)
             {
-              column.push_back(matrix.GCID(indices[k]));
+              column.push_back(matrix.Graph().GCID(indices[k]));
               source.push_back(static_cast<int>(std::lower_bound(first, last, column.back()) - row));
             }
         }
