@@ -2,7 +2,6 @@
 #include <tribodraw/base/log.h>
 #include <tribodraw/base/parallel.h>
 #include <tribodraw/base/parameters.h>
-#include <tribodraw/base/timing.h>
 #include <tribodraw/friction_table/builder.h>
 #include <tribodraw/friction_table/scatter.h>
 
@@ -87,9 +86,8 @@ namespace tribodraw
       static FrictionTable
       build(FrictionTableBuilder &from, const std::string &name)
       {
-        const timing::Scope scope("friction_table/build");
-        Progress            progress(name, 1.);
-        FrictionTable       table = from.build([&](const double done) { progress.update(done); });
+        Progress      progress(name, 1.);
+        FrictionTable table = from.build([&](const double done) { progress.update(done); });
         progress.finish();
         return table;
       }
