@@ -17,6 +17,10 @@ namespace tribodraw
     /// Far enough for every press, near enough that double precision leaves 1e-10 mm.
     constexpr double far_away = 2e4;
 
+    /// Into which the longest side of a box is divided at most in the search for a gap: some 1e6 cells lie on a surface
+    /// through the box.
+    constexpr double most_cells_along = 250;
+
     struct Cell
     {
       Vector3d centre, half;
@@ -93,14 +97,19 @@ namespace tribodraw
 
   Clearance
   smallest_clearance(const PlacedTool &a, const PlacedTool &b, const Vector3d &low, const Vector3d &high,
-                     const double spacing)
+                     const double wanted_spacing)
   {
+    const double spacing = std::max(wanted_spacing, (high - low).maxCoeff() / most_cells_along);
     // The sum of both distances is nowhere below the gap, and equal to it on the shortest line between the bodies.
     Clearance  best{ std::numeric_limits<double>::infinity(), low };
     const auto consider = [&](const Vector3d &x) {
       const double at_a = a.distance(x).distance, at_b = b.distance(x).distance;
+      ++best.n_points;
       if (at_a + at_b < best.gap)
-        best = { at_a + at_b, x };
+        {
+          best.gap   = at_a + at_b;
+          best.place = x;
+        }
       return std::max(at_a, at_b);
     };
     std::priority_queue<Cell> cells;

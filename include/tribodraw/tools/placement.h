@@ -46,10 +46,12 @@ namespace tribodraw
   {
     double          gap;   ///< [mm], negative if the tools overlap: by so much in the direction of least overlap
     Eigen::Vector3d place; ///< a point between the tools
+    std::size_t     n_points = 0; ///< at which both distances were asked
   };
   /// Smallest gap between two tools inside the box @p low to @p high. The box is searched to cells of edge @p spacing,
-  /// from the best of them by descent. The true gap is at most the given one, and at least the given one less
-  /// 1.8 @p spacing; at smooth surfaces the error is of second order in the spacing.
+  /// or a 250th of its longest side where that is more (so that the work is bounded for tools of every size), from the
+  /// best of them by descent. The true gap is at most the given one, and at least the given one less 1.8 of these
+  /// edges; at smooth surfaces the error is of second order in the edge.
   Clearance smallest_clearance(const PlacedTool &a, const PlacedTool &b, const Eigen::Vector3d &low,
                                const Eigen::Vector3d &high, double spacing);
 

@@ -124,6 +124,18 @@ TEST(Placement, SmallestClearanceOfTheCup)
               1e-9);
 }
 
+TEST(Placement, SearchForTheGapOfLargeToolsIsBounded)
+{
+  // Flat on flat, where no cell is better than another: two tools of a press for panels and of one for ships.
+  for (const double side : { 400., 40000. })
+    {
+      const Clearance gap = smallest_clearance({ &plate, { 0, 0, 0 }, false }, { &plate, { 0, 0, 0.78 }, true },
+                                               Vector3d(0, 0, -50), Vector3d(side, side, 50), 0.5);
+      EXPECT_NEAR(gap.gap, 0.78, 1e-9) << side;
+      EXPECT_LT(gap.n_points, 1000000u) << side; // 0.5 mm everywhere would be 6.4e9 on the larger plate
+    }
+}
+
 TEST(Placement, ElementsOnARadius)
 {
   EXPECT_NEAR(elements_on_smallest_radius(die, 2.5), M_PI, 1e-12); // 5 mm pi/2 / 2.5 mm
