@@ -9,6 +9,19 @@ namespace tribodraw
 {
   using Eigen::Vector3d;
 
+  namespace
+  {
+    /// Place of an extreme value: the first that differs from it by round-off only. Where many are equal (sheet that is
+    /// hardly stretched yet), the very extreme lies elsewhere with another number of ranks.
+    std::size_t
+    first_like(const std::vector<double> &values, const double extreme)
+    {
+      constexpr double round_off = 1e-9; // parts; sums over ranks differ by 1e-12
+      const auto       like      = [&](const double value) { return std::abs(value - extreme) <= round_off * std::abs(extreme); };
+      return static_cast<std::size_t>(std::find_if(values.begin(), values.end(), like) - values.begin());
+    }
+  } // namespace
+
   ResultsWriter::ResultsWriter(std::filesystem::path output_folder) : folder(std::move(output_folder)) {}
 
   void
@@ -59,13 +72,14 @@ namespace tribodraw
     add("draw_in_y", r.draw_in_y, "mm");
     add("draw_in_diagonal", r.draw_in_diagonal, "mm");
     const auto &thickness = simulation.shell().node_thickness();
-    const auto  thinnest = std::min_element(thickness.begin(), thickness.end()) - thickness.begin(), thickest = std::max_element(thickness.begin(), thickness.end()) - thickness.begin();
-    const auto &start    = simulation.shell().mesh().nodes;
+    const auto [least, greatest] = std::minmax_element(thickness.begin(), thickness.end());
+    const std::size_t thinnest = first_like(thickness, *least), thickest = first_like(thickness, *greatest);
+    const auto &start = simulation.shell().mesh().nodes;
     add("least_thickness_of_an_element", r.min_thickness, "mm");
-    add("least_thickness_of_a_node", thickness[thinnest], "mm");
+    add("least_thickness_of_a_node", *least, "mm");
     add("least_thickness_at_undeformed_x", start[thinnest][0], "mm");
     add("least_thickness_at_undeformed_y", start[thinnest][1], "mm");
-    add("greatest_thickness_of_a_node", thickness[thickest], "mm");
+    add("greatest_thickness_of_a_node", *greatest, "mm");
     add("greatest_thickness_at_undeformed_x", start[thickest][0], "mm");
     add("greatest_thickness_at_undeformed_y", start[thickest][1], "mm");
     add("largest_plastic_strain", r.max_eps_p, "");
