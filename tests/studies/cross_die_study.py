@@ -12,6 +12,7 @@ for the claims, 8 more with --beyond.
 """
 import argparse
 import csv
+import math
 import os
 import pathlib
 import resource
@@ -134,10 +135,11 @@ def no_pressure_at_least_amount(study):
 def place_of_the_peak(study):
     """Where the lubricant pressure of the die side is greatest, with the paper's rule and with film transport. The paper's
     contact pressure at the corner of the die rises up to 35 mm; the claim is checked from 24 to 40 mm."""
-    rows = []
+    rows, parts = [], []
     for name, rule in (("paper2.0", "paper's rule"), ("a2.0", "film transport")):
         drawing = []
         for travel, fields in study.steps(name):
+            parts += [(name, f"{travel:.1f}", part, *(f"{x:.3g}" for x in means)) for part, means in means_on_the_radius(fields)]
             touching, pressure = fields.touching(), fields.values["lubricant_pressure_die"]
             if travel < 4 or not touching:
                 continue
@@ -163,6 +165,22 @@ def place_of_the_peak(study):
                     f", to {max(float(r[3]) for r in last):.1f} MPa", None)
     with open(study.folder / "peak_pressure.csv", "w", newline="") as stream:
         csv.writer(stream).writerows([("run", "travel_mm", "zone", "pressure_mpa", "height", "part", "x0_mm", "y0_mm", "x_mm", "y_mm", "z_mm"), *rows])
+    with open(study.folder / "radius_means.csv", "w", newline="") as stream:
+        csv.writer(stream).writerows([("run", "travel_mm", "part", "contact_pressure_mpa", "lubricant_share", "sliding_mm_per_s"), *parts])
+
+
+def means_on_the_radius(fields):
+    """For each part of the die radius: mean contact pressure, share of the load on the lubricant, mean speed of the sheet, over
+    its nodes in contact."""
+    parts = {}
+    for i in fields.touching():
+        if fields.zone(i)[0] == "radius":
+            parts.setdefault(fields.zone(i)[1], []).append(i)
+    for part, nodes in sorted(parts.items()):
+        contact = sum(fields.values["contact_pressure_die"][i] for i in nodes)
+        lubricant = sum(fields.values["lubricant_pressure_die"][i] for i in nodes)
+        speed = sum(math.hypot(*fields.values["velocity"][i]) for i in nodes)
+        yield part, (contact / len(nodes), lubricant / contact if contact > 0 else 0., speed / len(nodes))
 
 
 def forces(study):
